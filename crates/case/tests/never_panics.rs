@@ -1,0 +1,93 @@
+//! No text, however broken, makes the reader panic.
+
+use case::Case;
+use proptest::prelude::*;
+
+const GOOD: &str = include_str!("../../../tests/input/bad/clamped_face_off_grid.ron");
+
+/// Stretches of RON that reach deeper than random bytes do.
+const PIECES: [&str; 16] = [
+    "(", ")", "[", "]", ",", ":", "\"", "//", "/*", "r#\"", "-1e308", "1e-308", "NaN", "inf",
+    "Moved(shape: ", "Compose([Subtract(",
+];
+
+#[derive(Debug, Clone)]
+enum Edit {
+    Delete,
+    Duplicate,
+    Insert(usize),
+    Replace(char),
+}
+
+fn edit() -> impl Strategy<Value = (Edit, usize, usize)> {
+    let kind = prop_oneof![
+        Just(Edit::Delete),
+        Just(Edit::Duplicate),
+        (0..PIECES.len()).prop_map(Edit::Insert),
+        any::<char>().prop_map(Edit::Replace),
+    ];
+    (kind, 0..GOOD.len(), 1_usize..20)
+}
+
+fn apply(text: &mut String, (edit, at, length): &(Edit, usize, usize)) {
+    let boundary = |mut at: usize| {
+        at = at.min(text.len());
+        while !text.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    };
+    let (start, end) = (boundary(*at), boundary(at + length));
+    match edit {
+        Edit::Delete => text.replace_range(start..end, ""),
+        Edit::Duplicate => {
+            let piece = text[start..end].to_owned();
+            text.insert_str(end, &piece);
+        }
+        Edit::Insert(piece) => text.insert_str(start, PIECES[*piece]),
+        Edit::Replace(c) => text.replace_range(start..end, &c.to_string()),
+    }
+}
+
+fn use_all(case: Result<Case, case::CaseError>) {
+    match case {
+        Err(error) => {
+            let report = format!("{:?}", miette::Report::new(error));
+            assert!(!report.is_empty());
+        }
+        Ok(case) if case.estimate().memory < 1 << 24 => {
+            let _ = case.build::<2>().map_err(|error| error.to_string());
+            let _ = case.build::<3>().map_err(|error| error.to_string());
+        }
+        Ok(_) => {}
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    #[test]
+    fn mutated_text_is_read_or_refused(edits in prop::collection::vec(edit(), 1..4)) {
+        let mut text = GOOD.to_owned();
+        edits.iter().for_each(|edit| apply(&mut text, edit));
+        use_all(Case::parse("x.ron", &text, &[]));
+    }
+
+    #[test]
+    fn any_override_is_applied_or_refused(path in "[a-z_.0-9\\[\\]]{0,30}", value in ".{0,12}") {
+        use_all(Case::parse("x.ron", GOOD, &[format!("{path}={value}"), path]));
+    }
+
+    #[test]
+    fn any_number_is_used_or_refused(
+        field in prop::sample::select(vec![
+            "fluid.spacing", "solid.grid_spacing", "fluid.blocks.0.shape.upper.0",
+            "solid.bodies.0.shape.upper.2", "solid.bodies.0.shape.lower.1", "end_time",
+            "fluid.sound_speed", "solid.grid_margin", "fluid.lattice_origin", "gravity.2",
+            "solid.bodies.0.material.young_modulus", "walls.0.shape.upper.1",
+        ]),
+        value in any::<f64>(),
+    ) {
+        use_all(Case::parse("x.ron", GOOD, &[format!("{field}={value:?}")]));
+    }
+}

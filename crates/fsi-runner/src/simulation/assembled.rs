@@ -1,0 +1,116 @@
+//! The one implementation of [`Simulation`].
+
+use case::Gauge;
+use coupling::{Coupled, CouplingError, FluidSide, SolidSide, TimeStepLimit};
+
+use super::gauges::GaugeBoard;
+use super::sides::{ObservedFluid, ObservedSolid};
+use super::{Counts, Simulation, Totals, clouds, ledger, state};
+use crate::failure::Failure;
+use crate::output::checkpoint::Checkpoint;
+use crate::output::frame::{Column, Frame, PointCloud};
+
+/// A coupled pair with its gauges.
+pub struct Assembled<const D: usize, F, S> {
+    coupled: Coupled<D, F, S>,
+    gauges: GaugeBoard<D>,
+}
+
+impl<const D: usize, F, S> Assembled<D, F, S>
+where
+    F: FluidSide<D> + ObservedFluid<D>,
+    S: SolidSide<D> + ObservedSolid<D>,
+{
+    /// Puts gauges on a coupled pair.
+    pub fn new(coupled: Coupled<D, F, S>, gauges: Vec<Gauge<D>>) -> Self {
+        let gauges = GaugeBoard::new(gauges, coupled.solid().observed());
+        Self { coupled, gauges }
+    }
+}
+
+impl<const D: usize, F, S> Simulation for Assembled<D, F, S>
+where
+    F: FluidSide<D> + ObservedFluid<D> + Send,
+    S: SolidSide<D> + ObservedSolid<D> + Send,
+{
+    fn counts(&self) -> Counts {
+        let fluid = self.coupled.fluid().observed();
+        let solid = self.coupled.solid().observed();
+        Counts {
+            fluid: fluid.map_or(0, |fluid| fluid.particles().position.len()),
+            wall: fluid.map_or(0, |fluid| fluid.walls().position.len()),
+            material: solid.map_or(0, |solid| solid.points().position.len()),
+        }
+    }
+
+    fn time(&self) -> f64 {
+        self.coupled.time()
+    }
+
+    fn steps(&self) -> u64 {
+        self.coupled.steps()
+    }
+
+    fn substeps(&self) -> u32 {
+        self.coupled.substeps()
+    }
+
+    fn time_step(&self) -> Result<TimeStepLimit, CouplingError> {
+        let unlimited = TimeStepLimit { value: f64::INFINITY, term: "nothing" };
+        Ok(self.coupled.stable_time_step()?.unwrap_or(unlimited))
+    }
+
+    fn step(&mut self, dt: f64) -> Result<(), CouplingError> {
+        self.coupled.step(dt)
+    }
+
+    fn gauge_columns(&self) -> Vec<Column> {
+        self.gauges.columns()
+    }
+
+    fn gauge_row(&self) -> Vec<f64> {
+        self.gauges.row(&self.coupled)
+    }
+
+    fn ledger_columns(&self) -> Vec<Column> {
+        ledger::columns()
+    }
+
+    fn ledger_row(&mut self) -> Vec<f64> {
+        let row = ledger::row(&self.coupled);
+        self.coupled.ledger_mut().start_row();
+        row
+    }
+
+    fn totals(&self) -> Totals {
+        ledger::totals(&self.coupled)
+    }
+
+    fn static_clouds(&self) -> Vec<PointCloud> {
+        self.coupled.fluid().observed().and_then(clouds::fixed_walls).into_iter().collect()
+    }
+
+    fn frame(&self, index: u64) -> Frame {
+        let mut clouds = Vec::new();
+        if let Some(fluid) = self.coupled.fluid().observed() {
+            clouds.push(clouds::fluid(fluid));
+            clouds.extend(clouds::moving_walls(fluid));
+        }
+        if let Some(solid) = self.coupled.solid().observed() {
+            clouds.extend(clouds::bodies(solid));
+        }
+        Frame { index, step: self.steps(), time: self.time(), clouds }
+    }
+
+    fn markers(&self) -> Vec<(String, [f64; 3])> {
+        self.gauges.markers()
+    }
+
+    fn save(&self, checkpoint: &mut Checkpoint) {
+        state::save(&self.coupled, checkpoint);
+    }
+
+    fn load(&mut self, checkpoint: &Checkpoint) -> Result<(), Failure> {
+        state::load(&mut self.coupled, checkpoint)
+    }
+}

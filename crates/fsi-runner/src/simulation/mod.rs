@@ -1,0 +1,144 @@
+//! A built case, ready to step, with its dimension and its sides hidden.
+//!
+//! The run loop sees [`Simulation`]; behind it stand the six combinations of
+//! dimension and present sides, each compiled to its own code.
+
+mod assembled;
+mod clouds;
+mod gauges;
+mod ledger;
+mod sides;
+mod state;
+
+use case::{Case, Model};
+use coupling::{Coupled, CouplingError, NoFluid, NoSolid, TimeStepLimit};
+use gimpm::Solid;
+use sph::Fluid;
+
+use crate::failure::Failure;
+use crate::output::checkpoint::Checkpoint;
+use crate::output::frame::{Column, Frame, PointCloud};
+use assembled::Assembled;
+pub use ledger::Totals;
+
+/// How many of each kind of point a simulation has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Fluid particles.
+    pub fluid: usize,
+    /// Wall particles.
+    pub wall: usize,
+    /// Material points.
+    pub material: usize,
+}
+
+/// What the run loop needs of a built case.
+pub trait Simulation: Send {
+    /// Numbers of particles and points now.
+    fn counts(&self) -> Counts;
+
+    /// Simulated time (s).
+    fn time(&self) -> f64;
+
+    /// Completed steps.
+    fn steps(&self) -> u64;
+
+    /// Solid sub-steps of the last step.
+    fn substeps(&self) -> u32;
+
+    /// Stable time step and what limits it.
+    ///
+    /// # Errors
+    /// The state is not finite.
+    fn time_step(&self) -> Result<TimeStepLimit, CouplingError>;
+
+    /// One coupled step of `dt` (s).
+    ///
+    /// # Errors
+    /// A side refuses its part.
+    fn step(&mut self, dt: f64) -> Result<(), CouplingError>;
+
+    /// Names and units of the gauge row.
+    fn gauge_columns(&self) -> Vec<Column>;
+
+    /// Gauge values now.
+    fn gauge_row(&self) -> Vec<f64>;
+
+    /// Names and units of the ledger row.
+    fn ledger_columns(&self) -> Vec<Column>;
+
+    /// Ledger values now; starts a new row.
+    fn ledger_row(&mut self) -> Vec<f64>;
+
+    /// Conservation figures of the whole run for the summary.
+    fn totals(&self) -> Totals;
+
+    /// Points that never move.
+    fn static_clouds(&self) -> Vec<PointCloud>;
+
+    /// Everything that moves, as frame number `index`.
+    fn frame(&self, index: u64) -> Frame;
+
+    /// Gauge names with their places, for the viewer.
+    fn markers(&self) -> Vec<(String, [f64; 3])>;
+
+    /// Adds the complete state to a checkpoint.
+    fn save(&self, checkpoint: &mut Checkpoint);
+
+    /// Continues from a checkpoint, bit for bit.
+    ///
+    /// # Errors
+    /// An entry is missing or has another length than this case needs.
+    fn load(&mut self, checkpoint: &Checkpoint) -> Result<(), Failure>;
+}
+
+/// Builds the solvers of a checked case.
+///
+/// # Errors
+/// The case cannot be seeded, or a solver refuses its input.
+pub fn assemble(case: &Case) -> Result<Box<dyn Simulation>, Failure> {
+    match case.dimension() {
+        2 => assemble_dimension(case.build::<2>()?),
+        _ => assemble_dimension(case.build::<3>()?),
+    }
+}
+
+fn assemble_dimension<const D: usize>(model: Model<D>) -> Result<Box<dyn Simulation>, Failure>
+where
+    Fluid<D>: Send,
+{
+    let fluid = match model.fluid {
+        Some(fluid) => Some(
+            Fluid::new(fluid.parameters, fluid.particles, fluid.walls).map_err(Failure::input)?,
+        ),
+        None => None,
+    };
+    let solid = match model.solid {
+        Some(solid) => Some(
+            Solid::new(solid.parameters, solid.bodies, solid.constraints)
+                .map_err(Failure::input)?,
+        ),
+        None => None,
+    };
+    let parameters = model.coupling;
+    let gauges = model.gauges;
+    Ok(match (fluid, solid) {
+        (Some(fluid), Some(solid)) => {
+            let coupled = Coupled::new(fluid, solid, parameters).map_err(Failure::input)?;
+            Box::new(Assembled::<D, _, _>::new(coupled, gauges))
+        }
+        (Some(fluid), None) => {
+            let coupled = Coupled::new(fluid, NoSolid, parameters).map_err(Failure::input)?;
+            Box::new(Assembled::<D, _, _>::new(coupled, gauges))
+        }
+        (None, Some(solid)) => {
+            let coupled = Coupled::new(NoFluid, solid, parameters).map_err(Failure::input)?;
+            Box::new(Assembled::<D, _, _>::new(coupled, gauges))
+        }
+        (None, None) => {
+            return Err(Failure::input(
+                "the case has neither `fluid` nor `solid`; give at least one",
+            ));
+        }
+    })
+}

@@ -1,0 +1,97 @@
+//! Explicit dynamics of solids by the generalized interpolation material point
+//! method (GIMPM), in plane strain (`D = 2`) and in three dimensions (`D = 3`).
+//!
+//! Material points carry mass, velocity, stress and deformation; a fixed
+//! background grid carries the equation of motion. One [`Solid::step`] is the
+//! modified-update-stress-last sequence of the founding paper with the weights
+//! of Bardenhagen and Kober (2004); every formula is numbered G1, G2, … in
+//! `docs/method.md`, and each phase of the step lives in its own file.
+//!
+//! SI units. Coordinates are (x, y) with y up or (x, y, z) with z up. Stress is
+//! the symmetric Cauchy tensor in both, `[xx, yy, zz, xy, yz, xz]`, tension
+//! positive.
+//!
+//! A bar of four cells, clamped at its left end, is pulled at the other:
+//!
+//! ```
+//! use gimpm::{BodySeed, InitialVelocity, LinearElastic, NodeConstraint, Shape, Solid,
+//!     SolidParameters};
+//! use motion::Motion;
+//! use nalgebra::SVector;
+//!
+//! let parameters = SolidParameters {
+//!     gravity: SVector::from([0.0, 0.0]),
+//!     shape: Shape::Ugimp,
+//!     courant_number: 0.5,
+//!     grid_spacing: 0.25,
+//!     grid_origin: SVector::from([-0.25, -0.25]),
+//!     grid_cells: [7, 3],
+//!     damping: 0.0,
+//! };
+//! let bar = BodySeed {
+//!     name: "bar".into(),
+//!     material: LinearElastic { density: 1.0, young_modulus: 100.0, poisson_ratio: 0.0 }.into(),
+//!     points: (0..16)
+//!         .map(|k| SVector::from([0.0625 + 0.125 * f64::from(k / 2), 0.0625 + 0.125 * f64::from(k % 2)]))
+//!         .collect(),
+//!     velocity: InitialVelocity::Uniform(SVector::from([0.0, 0.0])),
+//!     point_spacing: 0.125,
+//! };
+//! let inf = f64::INFINITY;
+//! let clamp = NodeConstraint {
+//!     name: "clamp".into(),
+//!     lower: SVector::from([-inf, -inf]),
+//!     upper: SVector::from([0.0, inf]),
+//!     components: [Some(Motion::Fixed), Some(Motion::Fixed)],
+//! };
+//! let pull = NodeConstraint {
+//!     name: "pull".into(),
+//!     lower: SVector::from([1.0, -inf]),
+//!     upper: SVector::from([inf, inf]),
+//!     components: [Some(Motion::SmoothStart { velocity: 0.01, duration: 0.5 }), None],
+//! };
+//! let mut solid = Solid::new(parameters, vec![bar], vec![clamp, pull])?;
+//! while solid.time() < 1.0 {
+//!     let dt = solid.stable_time_step()?.value;
+//!     solid.step(dt)?;
+//! }
+//! let (force, _moment) = solid.reaction(1, SVector::from([1.0, 0.0]));
+//! assert!(force[0] > 0.0, "the clamp at the pulled end pulls to the right");
+//! # Ok::<(), gimpm::SolidError>(())
+//! ```
+#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used))]
+
+mod constraints;
+mod energy;
+mod error;
+mod external_force;
+mod grid;
+mod grid_momentum;
+mod grid_to_points;
+mod layout_check;
+mod material;
+mod objective;
+mod parameters;
+mod points;
+mod points_to_grid;
+mod reaction;
+mod remap;
+mod shape;
+mod solid;
+mod sort;
+mod state;
+mod step;
+mod stress_update;
+mod time_step;
+
+pub use energy::{SolidEnergy, SolidLedger};
+pub use error::SolidError;
+pub use grid_momentum::SmallMassReport;
+pub use material::{LinearElastic, Material, MaterialError, MaterialModel};
+pub use parameters::{BodySeed, InitialVelocity, NodeConstraint, Shape, SolidParameters};
+pub use points::Points;
+pub use reaction::Reaction;
+pub use shape::{AxisWeights, Linear, ShapeFunction, Ugimp};
+pub use solid::{Body, Solid};
+pub use state::SolidState;
+pub use time_step::TimeStepLimit;

@@ -1,0 +1,100 @@
+//! The material points, one array a quantity.
+
+use nalgebra::{Matrix3, SVector};
+
+/// Material points in storage order: body by body, within a body by grid cell.
+///
+/// The order changes only in `sort_points`; `id` says which point is where.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Points<const D: usize> {
+    /// Identity, the number of the point in the seeds.
+    pub id: Vec<u32>,
+    /// Index of the body.
+    pub body: Vec<u16>,
+    /// Position x (m).
+    pub position: Vec<SVector<f64, D>>,
+    /// Position X in the reference state (m).
+    pub reference_position: Vec<SVector<f64, D>>,
+    /// Velocity (m/s).
+    pub velocity: Vec<SVector<f64, D>>,
+    /// Mass (kg; in plane strain kg per metre of thickness).
+    pub mass: Vec<f64>,
+    /// Volume V0 in the reference state (m³; in plane strain m²).
+    pub reference_volume: Vec<f64>,
+    /// Current volume `det F · V0`.
+    pub volume: Vec<f64>,
+    /// Deformation gradient F; its out-of-plane part is the identity in plane strain.
+    pub deformation_gradient: Vec<Matrix3<f64>>,
+    /// Cauchy stress (Pa) `[xx, yy, zz, xy, yz, xz]`, tension positive.
+    pub stress: Vec<[f64; 6]>,
+}
+
+/// Applies a method call to every array of one or two sets of points.
+macro_rules! for_each_array {
+    ($apply:ident) => {
+        $apply!(
+            id,
+            body,
+            position,
+            reference_position,
+            velocity,
+            mass,
+            reference_volume,
+            volume,
+            deformation_gradient,
+            stress
+        )
+    };
+}
+
+impl<const D: usize> Points<D> {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.id.len()
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.id.is_empty()
+    }
+
+    /// Displacement (m) at a material position X (m) near point `point`, taken as
+    /// deforming with it (G24): `u = x_p + F (X - X_p) - X`.
+    pub fn displacement_at(&self, point: usize, reference: &SVector<f64, D>) -> SVector<f64, D> {
+        let offset = reference - self.reference_position[point];
+        let gradient = &self.deformation_gradient[point];
+        SVector::from_fn(|i, _| {
+            let carried: f64 = (0..D).map(|j| gradient[(i, j)] * offset[j]).sum();
+            self.position[point][i] + carried - reference[i]
+        })
+    }
+
+    /// Whether all arrays have the same length.
+    pub(crate) fn is_consistent(&self) -> bool {
+        let count = self.len();
+        macro_rules! same_length {
+            ($($array:ident),*) => { $(self.$array.len() == count)&&* };
+        }
+        for_each_array!(same_length)
+    }
+
+    /// Copies all arrays, reusing this set's buffers.
+    pub(crate) fn copy_from(&mut self, source: &Self) {
+        macro_rules! copy {
+            ($($array:ident),*) => { $(self.$array.clone_from(&source.$array);)* };
+        }
+        for_each_array!(copy);
+    }
+
+    /// Fills this set with the points of `source` in the order given: entry `k`
+    /// becomes point `order[k]`.
+    pub(crate) fn gather_from(&mut self, source: &Self, order: &[u32]) {
+        macro_rules! gather {
+            ($($array:ident),*) => { $(
+                self.$array.clear();
+                self.$array.extend(order.iter().map(|&k| source.$array[k as usize]));
+            )* };
+        }
+        for_each_array!(gather);
+    }
+}

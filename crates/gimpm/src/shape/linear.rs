@@ -1,0 +1,40 @@
+//! Linear weights of the original material point method.
+
+use super::{AxisWeights, ShapeFunction};
+
+/// `S = 1 - |x|` at the point itself (G3; Sulsky, Chen and Schreyer 1994).
+///
+/// Its derivative jumps at nodes, so the internal force jumps when a point
+/// crosses into the next cell; kept for comparison with GIMP.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linear;
+
+impl ShapeFunction for Linear {
+    #[inline(always)]
+    fn reach(&self) -> f64 {
+        1.0
+    }
+
+    #[inline(always)]
+    fn weights(&self, x: f64) -> AxisWeights {
+        let base = x.floor();
+        let t = x - base;
+        AxisWeights {
+            base: base as i32,
+            count: 2,
+            value: [1.0 - t, t, 0.0],
+            gradient: [-1.0, 1.0, 0.0],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    crate::shape_function_conformance!(
+        #[test]
+        linear,
+        Linear
+    );
+}

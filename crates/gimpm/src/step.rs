@@ -1,0 +1,40 @@
+//! One step: equations (1) to (9) of the founding paper, in order.
+
+use crate::error::SolidError;
+use crate::solid::Solid;
+
+impl<const D: usize> Solid<D> {
+    /// Advances the solid by `dt` (s): modified update stress last, FLIP.
+    ///
+    /// # Errors
+    /// [`SolidError`] for a step that is too large, a point that left the grid or
+    /// drifted too far from its sorted cell, a quantity that is not finite, an
+    /// inverted point. After an error in mid-step the solid refuses to go on
+    /// until a state is restored.
+    pub fn step(&mut self, dt: f64) -> Result<(), SolidError> {
+        self.check_time_step(dt)?;
+        self.points_to_grid(); //              (1) mass and momentum, (2) internal force
+        self.update_grid_momentum(dt); //      (3) a_v, (4) v_v^L
+        self.constrain_acceleration(dt); //    boundary conditions on a_v and v_v^L
+        self.record_work(dt);
+        self.grid_to_points(dt); //            (5) v_p, (6) displacement of x_p
+        self.remap_momentum(); //              (7) v_v from the new v_p
+        self.constrain_remapped_velocity(); // boundary conditions again
+        let moved = self.update_stress(dt).and_then(|()| {
+            // (8) strain increment, (9) stress; x_p moves with (6)
+            self.finish_step(dt)
+        });
+        self.failure = moved.clone().err();
+        moved
+    }
+
+    /// Clock, speed bound, loads used up, layout still valid.
+    fn finish_step(&mut self, dt: f64) -> Result<(), SolidError> {
+        self.state.time += dt;
+        self.state.steps += 1;
+        self.state.maximum_speed = self.measure_maximum_speed();
+        self.state.drift += self.measure_maximum_displacement();
+        self.grid.clear_external_force();
+        self.check_layout()
+    }
+}

@@ -1,0 +1,81 @@
+//! The pair force between a fluid particle and a wall point (C2, C4).
+//!
+//! Rigid walls and structures use the same function, and so do the particle loop and
+//! the gather of loads: action and reaction are the same bits with opposite sign.
+
+use crate::Kernel;
+use nalgebra::SVector;
+
+/// A fluid particle `a` as a wall point sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct FluidSide<const D: usize> {
+    /// `x_a` (m).
+    pub position: SVector<f64, D>,
+    /// `v_a` (m/s).
+    pub velocity: SVector<f64, D>,
+    /// `V_a` (m^D).
+    pub volume: f64,
+    /// `ρ_a` (kg/m³).
+    pub density: f64,
+    /// `p_a` (Pa).
+    pub pressure: f64,
+}
+
+/// A wall point `p` as the fluid sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct WallSide<const D: usize> {
+    /// `x_p` (m).
+    pub position: SVector<f64, D>,
+    /// `v̄_p` (m/s): mean velocity over the fluid step (C1).
+    pub velocity: SVector<f64, D>,
+    /// `V_p` (m^D), capped so that `Σ V W <= 1`.
+    pub volume: f64,
+}
+
+/// The force on the fluid particle, and the parts of its pressure sum that are not
+/// exchanged with compression energy (the ledger's losses).
+#[derive(Debug, Clone, Copy)]
+pub struct WallForce<const D: usize> {
+    /// `F_ap` (N), on the fluid particle; the wall point gets exactly `-F_ap`.
+    pub force: SVector<f64, D>,
+    /// Force per pressure `-V_a V_p ∇W_ap` (m^(D-1)).
+    pub area: SVector<f64, D>,
+    /// Impact pressure `β ρ_a w` (Pa), dissipative.
+    pub impact: f64,
+    /// Pressure sum less `impact` and `2 p_a` (Pa): hydrostatic offset and cuts at zero.
+    pub offset: f64,
+}
+
+/// Constants of the closure.
+#[derive(Debug, Clone, Copy)]
+pub struct WallClosure<const D: usize, K> {
+    /// The fluid's kernel.
+    pub kernel: K,
+    /// Gravity `g` (m/s²).
+    pub gravity: SVector<f64, D>,
+    /// `c0` (m/s).
+    pub sound_speed: f64,
+}
+
+impl<const D: usize, K: Kernel<D>> WallClosure<D, K> {
+    /// Force of wall point `p` on fluid particle `a` at `distance = |x_a - x_p|` (C2, C4):
+    ///
+    /// `F_ap = -V_a V_p [p_a + p_p + β ρ_a w]⁺ ∇W_ap`, `p_p = max(0, p_a + ρ_a g·(x_p - x_a))`,
+    /// `w = max(0, -2 (v_a - v̄_p)·e_ap)`, `β = min(3w, c0)`.
+    ///
+    /// The factor 2 is the mirrored normal velocity `2 v̄_p - v_a`; `β ρ_a w` is then
+    /// the Riemann term (S6) between the particle and its mirror image.
+    #[inline(always)]
+    pub fn force(&self, a: &FluidSide<D>, p: &WallSide<D>, distance: f64) -> WallForce<D> {
+        let offset = a.position - p.position;
+        let mirrored = (a.pressure - a.density * self.gravity.dot(&offset)).max(0.0);
+        // The smallest float keeps 0/0 out of a particle exactly on a wall point.
+        let approach = -2.0 * (a.velocity - p.velocity).dot(&offset);
+        let w = (approach / (distance + f64::MIN_POSITIVE)).max(0.0);
+        let impact = (3.0 * w).min(self.sound_speed) * a.density * w;
+        let sum = (a.pressure + mirrored + impact).max(0.0);
+        let scale = -(a.volume * p.volume) * self.kernel.gradient_factor(distance);
+        let area = offset * scale;
+        WallForce { force: area * sum, area, impact, offset: sum - impact - 2.0 * a.pressure }
+    }
+}
