@@ -41,8 +41,9 @@ def compare(points, data, cloud, label):
     for field in cloud.attrs["fields"]:
         stored = cloud[field][:]
         arrays = [data.GetArray(name) for name in array_names(field, stored, data)]
-        check(None not in arrays, f"{label}: no field {field}")
-        if None not in arrays:
+        complete = all(array is not None for array in arrays)
+        check(complete, f"{label}: no field {field}")
+        if complete:
             read = np.column_stack([vtk_to_numpy(array) for array in arrays])
             same = np.allclose(read.reshape(stored.shape), stored, rtol=1e-5)
             check(same, f"{label}: field {field} differs")

@@ -9,7 +9,9 @@ use crate::build;
 use crate::format::CaseForm;
 use crate::plan::Plan;
 use crate::source::Source;
-use crate::{CaseError, Estimate, Model, OutputIntervals, memory, outline, overrides, suggestion, validate};
+use crate::{
+    CaseError, Estimate, Model, OutputIntervals, memory, outline, overrides, suggestion, validate,
+};
 
 /// A case file that has passed every check that needs no particles.
 #[derive(Debug, Clone)]

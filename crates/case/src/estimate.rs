@@ -74,11 +74,7 @@ impl Counts {
         counts
     }
 
-    fn of_parts(
-        fluid: Option<&FluidPlan>,
-        walls: &[WallPlan],
-        solid: Option<&SolidPlan>,
-    ) -> Self {
+    fn of_parts(fluid: Option<&FluidPlan>, walls: &[WallPlan], solid: Option<&SolidPlan>) -> Self {
         let mut counts = Self { fluid: 0.0, walls: 0.0, points: 0.0, nodes: 0.0, cells: 0.0 };
         if let Some(fluid) = fluid {
             let cell = fluid.spacing().powi(fluid.lattice.dimension as i32);
@@ -184,15 +180,16 @@ pub(crate) fn check_memory(plan: &Plan, available: Option<u64>, check: &mut Chec
     refuse_excess(&Counts::of(plan), plan.fluid.as_ref(), plan.solid.as_ref(), available, check);
 }
 
-/// The same for the fluid alone, before the rest of a case is compared with it.
+/// The same for the fluid alone, before the rest of a case is compared with it;
+/// whether it fits.
 pub(crate) fn check_fluid_memory(
     fluid: &FluidPlan,
     walls: &[WallPlan],
     available: Option<u64>,
     check: &mut Checker<'_>,
-) {
+) -> bool {
     let counts = Counts::of_parts(Some(fluid), walls, None);
-    refuse_excess(&counts, Some(fluid), None, available, check);
+    refuse_excess(&counts, Some(fluid), None, available, check)
 }
 
 fn refuse_excess(
@@ -201,13 +198,13 @@ fn refuse_excess(
     solid: Option<&SolidPlan>,
     available: Option<u64>,
     check: &mut Checker<'_>,
-) {
+) -> bool {
     let most = f64::from(u32::MAX);
     let limit = available.map_or(f64::INFINITY, |bytes| USABLE * bytes as f64);
     let need = counts.fluid_memory() + counts.solid_memory();
     let largest = counts.fluid.max(counts.walls).max(counts.points).max(counts.nodes);
     if need <= limit && largest <= most {
-        return;
+        return true;
     }
     let excess = (need / limit).max(largest / most);
     let reason = if need > limit {
@@ -226,7 +223,7 @@ fn refuse_excess(
             ("fluid.spacing", fluid.spacing())
         }
         (_, Some(solid)) => ("solid.grid_spacing", solid.grid.spacing),
-        (None, None) => return,
+        (None, None) => return true,
     };
     let fitting = spacing * (1.05 * excess).powf(1.0 / check.dimension as f64);
     let message = format!(
@@ -235,6 +232,7 @@ fn refuse_excess(
         counts.fluid, counts.walls, counts.points, counts.nodes
     );
     check.problem(path, message, &format!("a spacing of at least {fitting:.2e} m would fit"));
+    false
 }
 
 /// Working memory for the counts of an estimate (bytes).

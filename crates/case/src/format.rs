@@ -12,7 +12,9 @@ mod solid;
 
 use serde::Deserialize;
 
-pub use fluid::{BlockForm, DissipationForm, Fit, FluidForm, PressureForm, SoundSpeedForm, WallForm};
+pub use fluid::{
+    BlockForm, DissipationForm, Fit, FluidForm, PressureForm, SoundSpeedForm, WallForm,
+};
 pub use gauge::GaugeForm;
 pub use motion::{LawForm, WallMotionForm};
 pub use shape::{OperationForm, RotationForm, ShapeForm};

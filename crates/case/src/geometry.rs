@@ -57,16 +57,13 @@ impl Region {
                 (p - center).norm() - radius
             }
             Self::Polygon(polygon) => polygon.signed_distance([p.x, p.y]),
-            Self::Extrusion { polygon, from, to } => corner_distance(
-                polygon.signed_distance([p.x, p.z]),
-                (from - p.y).max(p.y - to),
-            ),
-            Self::Compose(parts) => {
-                parts.iter().fold(f64::INFINITY, |distance, (add, region)| {
-                    let other = region.signed_distance(p);
-                    if *add { distance.min(other) } else { distance.max(-other) }
-                })
+            Self::Extrusion { polygon, from, to } => {
+                corner_distance(polygon.signed_distance([p.x, p.z]), (from - p.y).max(p.y - to))
             }
+            Self::Compose(parts) => parts.iter().fold(f64::INFINITY, |distance, (add, region)| {
+                let other = region.signed_distance(p);
+                if *add { distance.min(other) } else { distance.max(-other) }
+            }),
             Self::Moved { region, rotation, shift } => {
                 region.signed_distance(&(rotation.transpose() * (p - shift)))
             }
@@ -98,9 +95,9 @@ impl Region {
                 let (lower, upper) = polygon.bounds();
                 (Point::new(lower[0], *from, lower[1]), Point::new(upper[0], *to, upper[1]))
             }
-            Self::Compose(parts) => union(
-                parts.iter().filter(|(add, _)| *add).map(|(_, region)| region.bounds()),
-            ),
+            Self::Compose(parts) => {
+                union(parts.iter().filter(|(add, _)| *add).map(|(_, region)| region.bounds()))
+            }
             Self::Moved { region, rotation, shift } => {
                 let (lower, upper) = region.bounds();
                 let corners = (0..8).map(|corner| {
@@ -138,9 +135,9 @@ impl Region {
     /// Diameter of the largest ball inside; sampled for polygons and compositions.
     pub(crate) fn thickness(&self) -> f64 {
         match self {
-            Self::Box { lower, upper, dimension } => (0..*dimension)
-                .map(|axis| upper[axis] - lower[axis])
-                .fold(f64::INFINITY, f64::min),
+            Self::Box { lower, upper, dimension } => {
+                (0..*dimension).map(|axis| upper[axis] - lower[axis]).fold(f64::INFINITY, f64::min)
+            }
             Self::Cylinder { length, radius, .. } => length.min(2.0 * radius),
             Self::Sphere { radius, .. } | Self::Disc { radius, .. } => 2.0 * radius,
             Self::Moved { region, .. } => region.thickness(),

@@ -26,7 +26,8 @@ pub(crate) type CellRange = [std::ops::Range<i64>; 3];
 impl Lattice {
     /// Index of the plane that represents a coordinate.
     pub(crate) fn plane(&self, axis: usize, coordinate: f64) -> i64 {
-        (((coordinate - self.origin[axis]) / self.spacing - 0.5 - NUDGE).floor() as i64).saturating_add(1)
+        (((coordinate - self.origin[axis]) / self.spacing - 0.5 - NUDGE).floor() as i64)
+            .saturating_add(1)
     }
 
     /// Coordinate of a plane (m).

@@ -1,6 +1,6 @@
 //! From a case file to seeded particles and material points.
 //!
-//! A case is a RON file in SI units ([`format`], `docs/case.md`). [`Case::load`]
+//! A case is a RON file in SI units ([`mod@format`], `docs/case.md`). [`Case::load`]
 //! reads and checks it; [`Case::build`] fills its shapes with fluid particles,
 //! wall particles and material points and returns the inputs of the solvers.
 //! Every error is a [`CaseError`]: file, line and column (or the `--set`
@@ -43,7 +43,5 @@ mod validate;
 pub use case::Case;
 pub use error::CaseError;
 pub use estimate::{Estimate, StepEstimate};
-pub use suggestion::nearest as nearest_name;
-pub use model::{
-    FluidModel, ForceTarget, Gauge, GaugeKind, Model, OutputIntervals, SolidModel,
-};
+pub use model::{FluidModel, ForceTarget, Gauge, GaugeKind, Model, OutputIntervals, SolidModel};
+pub use suggestion::nearest_name;

@@ -329,7 +329,8 @@ mod tests {
 
     #[test]
     fn broken_text_is_refused_without_panic() {
-        for text in ["", "(", "(a: )", "(a: 1", "[1 2]", "\"x", "(a: 1) b", "/* (", "r#\"x\"", "'"] {
+        for text in ["", "(", "(a: )", "(a: 1", "[1 2]", "\"x", "(a: 1) b", "/* (", "r#\"x\"", "'"]
+        {
             assert!(Node::parse(text).is_err(), "{text}");
         }
         let deep = "[".repeat(100_000);

@@ -109,13 +109,7 @@ impl Source {
         }
     }
 
-    fn error_in_file(
-        &self,
-        start: usize,
-        length: usize,
-        path: &str,
-        message: String,
-    ) -> CaseError {
+    fn error_in_file(&self, start: usize, length: usize, path: &str, message: String) -> CaseError {
         let text = &self.file_text;
         let start = floor_boundary(text, start.min(text.len()));
         let end = floor_boundary(text, (start + length).min(text.len())).max(start);

@@ -1,11 +1,13 @@
 //! The valid name nearest to a mistyped one.
 
-/// The entry of `valid` with the fewest edits from `found`, unless it is too
-/// far away to be meant.
-pub fn nearest<'a>(
-    found: &str,
-    valid: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+/// The entry of `valid` with the fewest edits from `found`, upper and lower case
+/// alike, unless it is too far away to be meant.
+///
+/// ```
+/// assert_eq!(case::nearest_name("spacng", ["density", "spacing"]), Some("spacing"));
+/// assert_eq!(case::nearest_name("viscosity", ["density", "spacing"]), None);
+/// ```
+pub fn nearest_name<'a>(found: &str, valid: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = found.to_lowercase();
     valid
         .into_iter()
@@ -16,9 +18,9 @@ pub fn nearest<'a>(
 }
 
 /// Help text: the nearest name, then all valid ones.
-pub(crate) fn help<'a>(found: &str, valid: &[&'a str]) -> String {
+pub(crate) fn help(found: &str, valid: &[&str]) -> String {
     let list = valid.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    match (nearest(found, valid.iter().copied()), valid.is_empty()) {
+    match (nearest_name(found, valid.iter().copied()), valid.is_empty()) {
         (_, true) => "nothing can be named here".into(),
         (Some(name), _) => format!("did you mean `{name}`? Valid here: {list}"),
         (None, _) => format!("valid here: {list}"),
@@ -54,9 +56,9 @@ mod tests {
         for (typed, meant) in
             [("spacng", "spacing"), ("densitiy", "density"), ("soundspeed", "sound_speed")]
         {
-            assert_eq!(nearest(typed, names), Some(meant));
+            assert_eq!(nearest_name(typed, names), Some(meant));
         }
-        assert_eq!(nearest("viscosity_model", names), None);
+        assert_eq!(nearest_name("viscosity_model", names), None);
         assert_eq!(edit_distance("abcd", "abdc"), 1);
     }
 }

@@ -54,19 +54,18 @@ pub(crate) fn plan(
         );
     }
     let gravity_known = gravity.unwrap_or_default();
-    let fluid = form
-        .fluid
-        .as_ref()
-        .and_then(|fluid| fluid::plan(fluid, &gravity_known, form, &mut check));
+    let fluid =
+        form.fluid.as_ref().and_then(|fluid| fluid::plan(fluid, &gravity_known, form, &mut check));
     let walls = walls::plan(&form.walls, fluid.as_ref(), &mut check);
     // A spacing that is far too small would only bring mistakes that follow from it.
     if let Some(fluid) = &fluid {
-        estimate::check_fluid_memory(fluid, &walls, available_memory, &mut check);
-        if check.failed() {
+        let fits = estimate::check_fluid_memory(fluid, &walls, available_memory, &mut check);
+        if !fits {
             return Err(check.into_error());
         }
     }
-    let solid = form.solid.as_ref().and_then(|solid| solid::plan(solid, fluid.as_ref(), &mut check));
+    let solid =
+        form.solid.as_ref().and_then(|solid| solid::plan(solid, fluid.as_ref(), &mut check));
     // What follows relates the parts to each other, which needs them all.
     if check.failed() {
         return Err(check.into_error());

@@ -2,6 +2,7 @@
 //!
 //! `tests/input/bad/NAME.ron` is a case with one mistake; each line of
 //! `NAME.expected` must occur in the error's text.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use case::{Case, CaseError};
 

@@ -1,4 +1,5 @@
 //! Every case of the repository can be read, checked and built.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use case::{Case, CaseError, Model};
 

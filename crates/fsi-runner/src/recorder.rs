@@ -28,6 +28,7 @@ pub struct Recorder {
     rerun: Option<RerunLog>,
     progress: Progress,
     extremes: Extremes,
+    last_row_step: Option<u64>,
     last_frame_step: Option<u64>,
     checkpoint_time: Option<f64>,
 }
@@ -118,6 +119,7 @@ impl Recorder {
             rerun,
             progress: Progress::start(time, simulation.steps(), end_time),
             extremes: Extremes::new(&gauge_columns),
+            last_row_step: None,
             last_frame_step: None,
             checkpoint_time: resume.then_some(time),
         })
@@ -152,6 +154,7 @@ impl Recorder {
             rerun.log_row(Table::Gauges, step, time, &gauges);
             rerun.log_row(Table::Ledger, step, time, &ledger);
         }
+        self.last_row_step = Some(step);
         Ok(())
     }
 
@@ -186,6 +189,11 @@ impl Recorder {
         checkpoint.write(&self.folder.checkpoint())?;
         self.checkpoint_time = checkpoint.scalars.get("time").copied();
         Ok(())
+    }
+
+    /// Step of the last row of this session.
+    pub fn last_row_step(&self) -> Option<u64> {
+        self.last_row_step
     }
 
     /// Step of the last frame of this session.

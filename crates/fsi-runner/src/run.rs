@@ -69,12 +69,7 @@ pub fn run(
             return Ok(Ending::Interrupted);
         }
     }
-    if let Some(last) = recorded.frames.checked_sub(1)
-        && recorder.last_frame_step() != Some(simulation.steps())
-    {
-        recorder.frame(simulation, last + 1)?;
-        recorded.frames += 1;
-    }
+    record_end(simulation, recorder, recorded)?;
     save(simulation, recorder, recorded)?;
     Ok(Ending::Finished)
 }
@@ -99,6 +94,23 @@ fn record_due(
     {
         recorded.checkpoints = intervals(time, interval);
         save(simulation, recorder, recorded)?;
+    }
+    Ok(())
+}
+
+/// The end itself is always recorded, whether or not an interval ends there.
+fn record_end(
+    simulation: &mut dyn Simulation,
+    recorder: &mut Recorder,
+    recorded: &mut Recorded,
+) -> Result<(), Failure> {
+    let step = Some(simulation.steps());
+    if recorder.last_row_step() != step {
+        recorder.row(simulation)?;
+    }
+    if recorder.last_frame_step() != step {
+        recorder.frame(simulation, recorded.frames)?;
+        recorded.frames += 1;
     }
     Ok(())
 }

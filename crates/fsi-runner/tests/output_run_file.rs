@@ -1,4 +1,5 @@
 //! The run's HDF5 file: written, appended, resumed, read again.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod synthetic;
 

@@ -13,6 +13,7 @@ use std::ops::Range;
 use nalgebra::SVector;
 use rayon::prelude::*;
 
+use crate::grid_momentum::NODES_PER_TASK;
 use crate::shape::ShapeFunction;
 
 /// Cell layers in a slab.
@@ -193,7 +194,8 @@ impl<const D: usize> Grid<D> {
     /// Forgets the external force.
     pub fn clear_external_force(&mut self) {
         if self.has_external_force {
-            self.external_force.par_iter_mut().for_each(|f| *f = SVector::zeros());
+            let tasks = self.external_force.par_chunks_mut(NODES_PER_TASK);
+            tasks.for_each(|forces| forces.fill(SVector::zeros()));
             self.has_external_force = false;
         }
     }

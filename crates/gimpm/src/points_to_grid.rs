@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use rayon::prelude::*;
 
 use crate::grid::{NodeRecord, Stencil};
+use crate::grid_momentum::NODES_PER_TASK;
 use crate::shape::with_shape;
 use crate::solid::Solid;
 
@@ -14,7 +15,7 @@ impl<const D: usize> Solid<D> {
         let grid = &mut self.grid;
         let geometry = &grid.geometry;
         let points = &self.state.points;
-        grid.nodes.par_iter_mut().for_each(|record| *record = [0.0; 8]);
+        grid.nodes.par_chunks_mut(NODES_PER_TASK).for_each(|records| records.fill([0.0; 8]));
         for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
             with_shape!(body, shape => {
                 geometry.scatter_by_slab(offsets, &mut grid.nodes, |range, first, nodes| {

@@ -17,7 +17,7 @@ impl<const D: usize> Solid<D> {
         let grid = &mut self.grid;
         let geometry = &grid.geometry;
         let points = &self.state.points;
-        grid.remapped.par_iter_mut().for_each(|record| *record = [0.0; 4]);
+        grid.remapped.par_chunks_mut(NODES_PER_TASK).for_each(|records| records.fill([0.0; 4]));
         for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
             with_shape!(body, shape => {
                 geometry.scatter_by_slab(offsets, &mut grid.remapped, |range, first, nodes| {

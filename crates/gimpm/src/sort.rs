@@ -19,7 +19,7 @@ pub(crate) struct SortBuffers<const D: usize> {
 
 impl<const D: usize> Solid<D> {
     /// Whether points may have moved a quarter of a cell since the last sort, by
-    /// the bound `Σ Δt max|v|`. Call [`Self::sort_points`] then, between steps;
+    /// the bound `Σ max|Δx|` over the steps. Call [`Self::sort_points`] then, between steps;
     /// a step fails once a point leaves the node planes of its slab, which takes
     /// at least half a cell.
     pub fn needs_sort(&self) -> bool {

@@ -103,12 +103,13 @@ impl<const D: usize> Solid<D> {
                 return Err(SolidError::StateMismatch { what, found, expected });
             }
         }
+        let mut end = 0;
         for offsets in &state.slab_offsets {
-            if offsets.len() != slabs || !offsets.is_sorted() {
-                let found = offsets.len();
-                let what = "ordered slab offsets";
+            if offsets.len() != slabs || !offsets.is_sorted() || offsets[0] != end {
+                let (what, found) = ("ordered slab offsets", offsets.len());
                 return Err(SolidError::StateMismatch { what, found, expected: slabs });
             }
+            end = offsets[slabs - 1];
         }
         let known = points.id.iter().all(|&id| (id as usize) < points.len());
         if !points.is_consistent() || !known {

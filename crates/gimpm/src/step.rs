@@ -6,6 +6,9 @@ use crate::solid::Solid;
 impl<const D: usize> Solid<D> {
     /// Advances the solid by `dt` (s): modified update stress last, FLIP.
     ///
+    /// Call it from inside a rayon pool (`pool.install`): from outside, each of its
+    /// dozen parallel loops pays for waking the pool.
+    ///
     /// # Errors
     /// [`SolidError`] for a step that is too large, a point that left the grid or
     /// drifted too far from its sorted cell, a quantity that is not finite, an
@@ -20,12 +23,10 @@ impl<const D: usize> Solid<D> {
         self.grid_to_points(dt); //            (5) v_p, (6) displacement of x_p
         self.remap_momentum(); //              (7) v_v from the new v_p
         self.constrain_remapped_velocity(); // boundary conditions again
-        let moved = self.update_stress(dt).and_then(|()| {
-            // (8) strain increment, (9) stress; x_p moves with (6)
-            self.finish_step(dt)
-        });
-        self.failure = moved.clone().err();
-        moved
+        let stressed = self.update_stress(dt); // (8) strain, (9) stress; x_p moves by (6)
+        let outcome = stressed.and_then(|()| self.finish_step(dt));
+        self.failure = outcome.clone().err();
+        outcome
     }
 
     /// Clock, speed bound, loads used up, layout still valid.

@@ -15,6 +15,9 @@ pub struct TimeStepLimit {
 impl<const D: usize> Solid<D> {
     /// `Δt = C h/(c_p + max|v|)` (G21) with the fastest body's P-wave speed.
     ///
+    /// Measured stable in two and three dimensions up to C = 1 with uGIMP and two
+    /// points a cell and axis, 0.7 with linear weights (`tests/stability.rs`).
+    ///
     /// # Errors
     /// The error of an earlier step, if one failed.
     pub fn stable_time_step(&self) -> Result<TimeStepLimit, SolidError> {

@@ -5,6 +5,7 @@
 //! `reference/block_compression_sigma_zz.csv` holds σzz/(E ε0) averaged over the
 //! grid cells of one octant: the static limit of uGIMP on this grid, and
 //! converged finite elements.
+#![allow(clippy::unwrap_used)]
 
 mod lattice;
 

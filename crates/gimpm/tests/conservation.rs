@@ -1,4 +1,5 @@
 //! Momentum, work and load balances, for random states.
+#![allow(clippy::unwrap_used)]
 
 mod lattice;
 

@@ -1,4 +1,5 @@
 //! The same bits for any thread count, and after save/restore or a checkpoint.
+#![allow(clippy::unwrap_used)]
 
 mod lattice;
 

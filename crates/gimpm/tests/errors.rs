@@ -1,4 +1,5 @@
 //! What is refused, and what the message names.
+#![allow(clippy::unwrap_used)]
 
 mod lattice;
 

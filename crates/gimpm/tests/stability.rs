@@ -1,4 +1,5 @@
 //! How large a step is stable, and what a large rotation does.
+#![allow(clippy::unwrap_used)]
 
 mod lattice;
 

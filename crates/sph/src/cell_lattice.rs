@@ -33,7 +33,7 @@ impl<const D: usize> CellLattice<D> {
         let extent = domain.1.add_scalar(support) - origin;
         let wanted = extent.component_mul(&inverse_width).map(|c| c.floor() + 1.0);
         let cells = wanted.product();
-        if !(cells <= CELL_LIMIT) {
+        if cells.is_nan() || cells > CELL_LIMIT {
             return Err(FluidError::TooManyCells { cells, limit: CELL_LIMIT });
         }
         let mut count = [1; D];

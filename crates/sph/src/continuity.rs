@@ -15,17 +15,22 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
     pub fn evaluate_density_rate(&mut self) {
         let mut rate = take(&mut self.particles.density_rate);
         let mut diffusion = take(&mut self.particles.diffusion_rate);
+        let mut filling = take(&mut self.particles.filling);
         rate.par_iter_mut()
-            .zip(diffusion.par_iter_mut())
+            .zip(diffusion.par_iter_mut().zip(filling.par_iter_mut()))
             .enumerate()
             .with_min_len(GRAIN)
-            .for_each(|(i, (rate, diffusion))| (*rate, *diffusion) = self.density_rate(i));
+            .for_each(|(i, (rate, (diffusion, filling)))| {
+                (*rate, *diffusion, *filling) = self.density_rate(i);
+            });
         self.particles.density_rate = rate;
         self.particles.diffusion_rate = diffusion;
+        self.particles.filling = filling;
     }
 
-    /// Rate of particle `i` and the part of it from density diffusion (kg/m³/s).
-    fn density_rate(&self, i: usize) -> (f64, f64) {
+    /// Rate of particle `i`, the part of it from density diffusion (kg/m³/s), and the
+    /// particle's filling.
+    fn density_rate(&self, i: usize) -> (f64, f64, f64) {
         let a = &self.midpoint[i];
         let velocity = self.particles.velocity[i];
         let support = self.kernel.support();
@@ -33,6 +38,7 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
         let mut divergence = 0.0;
         let mut wall_divergence = [0.0; 2];
         let mut imbalance = 0.0;
+        let mut filling = 0.0;
         self.lattice.for_each_run(&a.position, support, |first, end| {
             let slots = self.table.slots(first, end);
             let others = self.midpoint[slots.clone()].iter().zip(&self.particles.velocity[slots]);
@@ -40,7 +46,9 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
                 let offset = a.position - b.position;
                 let square = offset.norm_squared();
                 if square < support * support {
-                    let factor = b.volume * self.kernel.gradient_factor(square.sqrt());
+                    let distance = square.sqrt();
+                    filling += b.volume * self.kernel.value(distance);
+                    let factor = b.volume * self.kernel.gradient_factor(distance);
                     divergence += factor * (velocity - other).dot(&offset);
                     // Pressures carry more digits than densities.
                     imbalance += factor * (b.pressure - a.pressure + weight.dot(&offset));
@@ -51,7 +59,9 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
                     let offset = a.position - p.position;
                     let square = offset.norm_squared();
                     if square < support * support {
-                        let factor = p.volume * self.kernel.gradient_factor(square.sqrt());
+                        let distance = square.sqrt();
+                        filling += p.volume * self.kernel.value(distance);
+                        let factor = p.volume * self.kernel.gradient_factor(distance);
                         *sum += factor * (velocity - p.velocity).dot(&offset);
                     }
                 }
@@ -62,18 +72,19 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
             / parameters.sound_speed
             * imbalance;
         for sum in wall_divergence {
-            divergence += 2.0 * one_sided(sum, a.pressure);
+            divergence += 2.0 * one_sided(sum, a.pressure, a.tension);
         }
-        (a.density * divergence + diffusion, diffusion)
+        (a.density * divergence + diffusion, diffusion, filling)
     }
 }
 
 /// Rate of compression `Σ_p V_p (v_a - v̄_p)·∇W_ap` that a boundary causes (C3): all of it
-/// under pressure, only compression under tension.
+/// under pressure; under tension all compression, but of stretching only the share `τ_a`
+/// that C4 pulls with.
 ///
-/// A wall does not pull (C4 is cut at zero), so it must not stretch either: the cut
-/// force does no work on the fluid, and stretching would store tension from nothing.
+/// Where the wall does not pull it must not stretch either: the cut force does no work
+/// on the fluid, and stretching would store tension from nothing.
 #[inline(always)]
-pub(crate) fn one_sided(compression: f64, pressure: f64) -> f64 {
-    if pressure < 0.0 { compression.max(0.0) } else { compression }
+pub(crate) fn one_sided(compression: f64, pressure: f64, tension: f64) -> f64 {
+    if pressure < 0.0 { compression.max(tension * compression) } else { compression }
 }

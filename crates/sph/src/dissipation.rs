@@ -21,9 +21,7 @@
 ///     }
 /// }
 ///
-/// mod conformance {
-///     sph::pair_dissipation_conformance!(acoustic, super::Acoustic { sound_speed: 30.0 });
-/// }
+/// sph::pair_dissipation_conformance!(acoustic, Acoustic { sound_speed: 30.0 });
 /// # fn main() {}
 /// ```
 pub trait PairDissipation: Copy + Send + Sync {
@@ -97,9 +95,11 @@ impl PairDissipation for RiemannLimiter {
 #[macro_export]
 macro_rules! pair_dissipation_conformance {
     ($name:ident, $model:expr) => {
+        #[cfg(test)]
         mod $name {
             #[allow(unused_imports)]
             use super::*;
+            #[allow(unused_imports)] // in scope already where the trait is defined
             use $crate::PairDissipation as _;
 
             #[test]

@@ -1,7 +1,7 @@
 //! Half drifts, kick, prescribed walls, removal and cell sort (S7, S9).
 
 use crate::parameters::DENSITY_LIMIT;
-use crate::wall_closure::FluidSide;
+use crate::wall_closure::{FluidSide, tension_share};
 use crate::{Fluid, FluidError, Kernel};
 use ordered_reduction::maximum;
 use rayon::prelude::*;
@@ -144,6 +144,7 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
                     volume: mass / density,
                     density,
                     pressure: eos.pressure(deviation),
+                    tension: tension_share(particles.filling[i]),
                 }
             })
             .collect_into_vec(&mut self.midpoint);
@@ -156,7 +157,7 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
         if largest <= DENSITY_LIMIT {
             return Ok(());
         }
-        let bad = |d: &f64| !(d.abs() <= DENSITY_LIMIT * reference);
+        let bad = |d: &f64| d.is_nan() || d.abs() > DENSITY_LIMIT * reference;
         let i = deviation.iter().position(bad).unwrap_or(0);
         if !deviation[i].is_finite() {
             return Err(self.non_finite("density", i));

@@ -111,6 +111,7 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
                 acceleration: vec![SVector::zeros(); count],
                 density_rate: vec![0.0; count],
                 diffusion_rate: vec![0.0; count],
+                filling: vec![0.0; count],
             },
             lattice,
             table: CellTable::default(),

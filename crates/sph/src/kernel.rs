@@ -36,9 +36,7 @@ use std::f64::consts::PI;
 ///     }
 /// }
 ///
-/// mod conformance {
-///     sph::kernel_conformance!(cubic_spline, super::CubicSpline, 2);
-/// }
+/// sph::kernel_conformance!(cubic_spline, CubicSpline, 2);
 /// # fn main() {}
 /// ```
 pub trait Kernel<const D: usize>: Copy + Send + Sync {
@@ -102,14 +100,17 @@ impl<const D: usize> Kernel<D> for WendlandC2<D> {
 /// monotone decay.
 ///
 /// ```
-/// # mod conformance {
 /// sph::kernel_conformance!(wendland_c2_3d, sph::WendlandC2<3>, 3);
-/// # }
+/// # fn main() {}
 /// ```
 #[macro_export]
 macro_rules! kernel_conformance {
     ($name:ident, $kernel:ty, $dimension:literal) => {
+        #[cfg(test)]
         mod $name {
+            #[allow(unused_imports)] // a path in `$kernel` may need it
+            use super::*;
+
             const LENGTH: f64 = 0.37;
 
             fn kernel() -> $kernel {

@@ -215,7 +215,7 @@ impl<const D: usize> FluidSeed<D> {
             );
         }
         let relative = self.density_deviation / p.reference_density;
-        if !(relative.abs() <= DENSITY_LIMIT) {
+        if relative.is_nan() || relative.abs() > DENSITY_LIMIT {
             let remedy = "|rho - rho0| may be at most 0.2 rho0; raise the sound speed";
             return fail("density deviation", format!("{} kg/m³", self.density_deviation), remedy);
         }

@@ -23,6 +23,9 @@ pub struct Particles<const D: usize> {
     pub density_rate: Vec<f64>,
     /// Part of `density_rate` from density diffusion (kg/m³/s).
     pub diffusion_rate: Vec<f64>,
+    /// `Σ V W` over fluid, walls and structure in the last continuity pass: 1 under
+    /// water, about 0.6 at a free surface.
+    pub filling: Vec<f64>,
 }
 
 impl<const D: usize> Particles<D> {
@@ -40,8 +43,8 @@ impl<const D: usize> Particles<D> {
     pub(crate) fn is_consistent(&self) -> bool {
         let n = self.len();
         [self.position.len(), self.velocity.len(), self.acceleration.len()] == [n; 3]
-            && [self.density_deviation.len(), self.density_rate.len(), self.diffusion_rate.len()]
-                == [n; 3]
+            && [self.density_deviation.len(), self.density_rate.len()] == [n; 2]
+            && [self.diffusion_rate.len(), self.filling.len()] == [n; 2]
     }
 
     /// Moves particle `order[slot]` to `slot` and drops everything not in `order`.
@@ -50,8 +53,12 @@ impl<const D: usize> Particles<D> {
         for array in [&mut self.position, &mut self.velocity, &mut self.acceleration] {
             gather(array, order, &mut spare.vector);
         }
-        for array in [&mut self.density_deviation, &mut self.density_rate, &mut self.diffusion_rate]
-        {
+        for array in [
+            &mut self.density_deviation,
+            &mut self.density_rate,
+            &mut self.diffusion_rate,
+            &mut self.filling,
+        ] {
             gather(array, order, &mut spare.scalar);
         }
     }

@@ -140,11 +140,10 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
         let eos = self.equation_of_state;
         for (&i, &divergence) in self.near.reached.iter().zip(&rates) {
             let a = &mut self.midpoint[i as usize];
-            if a.pressure < 0.0 {
-                continue; // one-sided as in `continuity.rs`: no load depends on it
-            }
+            // Under tension only the share that the load depends on, as in `continuity.rs`.
+            let share = if a.pressure < 0.0 { a.tension } else { 1.0 };
             let deviation = &mut self.particles.density_deviation[i as usize];
-            *deviation += dt * a.density * divergence;
+            *deviation += dt * a.density * divergence * share;
             a.density = eos.reference_density + *deviation;
             a.volume = self.mass / a.density;
             a.pressure = eos.pressure(*deviation);

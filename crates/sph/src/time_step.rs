@@ -38,7 +38,7 @@ impl<const D: usize, K: Kernel<D>> Fluid<D, K> {
             ("density diffusion", 0.1 * h / (p.density_diffusion * c0)),
         ];
         let (term, value) = terms.into_iter().fold(terms[0], |a, b| if b.1 < a.1 { b } else { a });
-        if !(speed <= c0) {
+        if speed.is_nan() || speed > c0 {
             let remedy = "the fluid is faster than the numerical sound speed; raise sound_speed to 10 times the largest velocity, or reduce the Courant number";
             return Err(FluidError::TimeStep { value, term, time: self.time, remedy });
         }

@@ -19,6 +19,20 @@ pub struct FluidSide<const D: usize> {
     pub density: f64,
     /// `p_a` (Pa).
     pub pressure: f64,
+    /// Share of a tension that a wall may exert on it, `τ_a` from 0 at a free surface to
+    /// 1 under water ([`tension_share`]).
+    pub tension: f64,
+}
+
+/// Share `τ` of a tension between wall and particle, from the particle's filling `Σ V W`:
+/// 0 up to 0.8, where water leaves the wall freely, 1 from 0.95 on, linear between.
+///
+/// Under water a wall that recedes pulls the water along: the ambient pressure, which
+/// the equation of state leaves out, holds the two together. Without that the closure
+/// loses its balance of work as soon as a pressure wave passes through zero, and the
+/// motion of an elastic gate depends on the speed of sound instead of converging with it.
+pub fn tension_share(filling: f64) -> f64 {
+    ((filling - 0.8) / 0.15).clamp(0.0, 1.0)
 }
 
 /// A wall point `p` as the fluid sees it.
@@ -42,7 +56,7 @@ pub struct WallForce<const D: usize> {
     pub area: SVector<f64, D>,
     /// Impact pressure `β ρ_a w` (Pa), dissipative.
     pub impact: f64,
-    /// Pressure sum less `impact` and `2 p_a` (Pa): hydrostatic offset and cuts at zero.
+    /// Pressure sum less `impact` and `2 p_a` (Pa): hydrostatic offset and cuts of tension.
     pub offset: f64,
 }
 
@@ -60,20 +74,22 @@ pub struct WallClosure<const D: usize, K> {
 impl<const D: usize, K: Kernel<D>> WallClosure<D, K> {
     /// Force of wall point `p` on fluid particle `a` at `distance = |x_a - x_p|` (C2, C4):
     ///
-    /// `F_ap = -V_a V_p [p_a + p_p + β ρ_a w]⁺ ∇W_ap`, `p_p = max(0, p_a + ρ_a g·(x_p - x_a))`,
-    /// `w = max(0, -2 (v_a - v̄_p)·e_ap)`, `β = min(3w, c0)`.
+    /// `F_ap = -V_a V_p [p_a + p_p + β ρ_a w]_τ ∇W_ap`, `p_p = [p_a + ρ_a g·(x_p - x_a)]_τ`,
+    /// `w = max(0, -2 (v_a - v̄_p)·e_ap)`, `β = min(3w, c0)`, where `[x]_τ` is `x` under
+    /// pressure and `τ_a x` under tension.
     ///
     /// The factor 2 is the mirrored normal velocity `2 v̄_p - v_a`; `β ρ_a w` is then
     /// the Riemann term (S6) between the particle and its mirror image.
     #[inline(always)]
     pub fn force(&self, a: &FluidSide<D>, p: &WallSide<D>, distance: f64) -> WallForce<D> {
         let offset = a.position - p.position;
-        let mirrored = (a.pressure - a.density * self.gravity.dot(&offset)).max(0.0);
+        let cut = |x: f64| x.max(a.tension * x);
+        let mirrored = cut(a.pressure - a.density * self.gravity.dot(&offset));
         // The smallest float keeps 0/0 out of a particle exactly on a wall point.
         let approach = -2.0 * (a.velocity - p.velocity).dot(&offset);
         let w = (approach / (distance + f64::MIN_POSITIVE)).max(0.0);
         let impact = (3.0 * w).min(self.sound_speed) * a.density * w;
-        let sum = (a.pressure + mirrored + impact).max(0.0);
+        let sum = cut(a.pressure + mirrored + impact);
         let scale = -(a.volume * p.volume) * self.kernel.gradient_factor(distance);
         let area = offset * scale;
         WallForce { force: area * sum, area, impact, offset: sum - impact - 2.0 * a.pressure }

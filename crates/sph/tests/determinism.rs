@@ -1,5 +1,7 @@
 //! Same bits for any thread count and after a restart.
 
+#![allow(clippy::unwrap_used)]
+
 mod tank;
 
 use motion::Motion;

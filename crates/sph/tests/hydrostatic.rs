@@ -1,5 +1,7 @@
 //! Still water in a tank: pressure, rest, weight.
 
+#![allow(clippy::unwrap_used)]
+
 mod tank;
 
 use nalgebra::SVector;

@@ -1,5 +1,7 @@
 //! Bad input is named with its value, limit and remedy.
 
+#![allow(clippy::unwrap_used)]
+
 mod tank;
 
 use motion::{Motion, MotionError};
@@ -18,7 +20,8 @@ fn refusal(parameters: FluidParameters<2>) -> FluidError {
 
 #[test]
 fn parameters_out_of_range() {
-    let cases: [(&str, fn(&mut FluidParameters<2>)); 7] = [
+    type Spoil = fn(&mut FluidParameters<2>);
+    let cases: [(&str, Spoil); 7] = [
         ("spacing", |p| p.spacing = 0.0),
         ("smoothing_length/spacing", |p| p.smoothing_length = 0.3),
         ("reference_density", |p| p.reference_density = -1000.0),

@@ -67,13 +67,7 @@ pub(crate) fn fluid_in_wall(
     Ok(())
 }
 
-fn overlap(
-    block: usize,
-    fluid: &FluidPlan,
-    other: &str,
-    p: &Point,
-    source: &Source,
-) -> CaseError {
+fn overlap(block: usize, fluid: &FluidPlan, other: &str, p: &Point, source: &Source) -> CaseError {
     let message = format!(
         "fluid block `{}` overlaps {other}, for example at {}",
         fluid.blocks[block].name,

@@ -92,8 +92,9 @@ fn tank_cells(
     let inside = fluid.lattice.cells(lower, upper);
     let mut outside = inside.clone();
     for axis in 0..fluid.lattice.dimension {
-        outside[axis].start -= if closed[axis][0] { fluid.layers } else { 0 };
-        outside[axis].end += if closed[axis][1] { fluid.layers } else { 0 };
+        let layers = closed[axis].map(|closed| if closed { fluid.layers } else { 0 });
+        outside[axis].start = outside[axis].start.saturating_sub(layers[0]);
+        outside[axis].end = outside[axis].end.saturating_add(layers[1]);
     }
     let mut cells = Vec::new();
     for k in outside[2].clone() {
@@ -141,8 +142,7 @@ fn apart(points: &[Point], others: &[[f64; 3]], distance: f64) -> Vec<Point> {
         return points.to_vec();
     };
     let far = |p: &&Point| {
-        let nearest =
-            tree.query(&[p.x, p.y, p.z]).nearest_one::<SquaredEuclidean<f64>>().execute();
+        let nearest = tree.query(&[p.x, p.y, p.z]).nearest_one::<SquaredEuclidean<f64>>().execute();
         nearest.distance > distance * distance
     };
     points.iter().filter(far).copied().collect()

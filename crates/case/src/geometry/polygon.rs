@@ -39,10 +39,7 @@ impl Polygon {
     pub(crate) fn bounds(&self) -> ([f64; 2], [f64; 2]) {
         let nothing = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         self.points.iter().fold(nothing, |(lower, upper), p| {
-            (
-                [lower[0].min(p[0]), lower[1].min(p[1])],
-                [upper[0].max(p[0]), upper[1].max(p[1])],
-            )
+            ([lower[0].min(p[0]), lower[1].min(p[1])], [upper[0].max(p[0]), upper[1].max(p[1])])
         })
     }
 

@@ -85,7 +85,10 @@ impl<'a> Checker<'a> {
         self.problem(
             path,
             format!("{field} is {value}{separator}{unit}"),
-            &format!("it must be {allowed}{}", if unit.is_empty() { String::new() } else { format!(", in {unit}") }),
+            &format!(
+                "it must be {allowed}{}",
+                if unit.is_empty() { String::new() } else { format!(", in {unit}") }
+            ),
         );
         false
     }
@@ -105,11 +108,12 @@ impl<'a> Checker<'a> {
             );
             return None;
         }
-        if let Some(index) = components.iter().position(|c| !c.is_finite()) {
+        let usable = |c: &f64| c.abs() <= LARGEST_COMPONENT;
+        if let Some(index) = components.iter().position(|c| !usable(c)) {
             self.problem(
                 &format!("{path}[{index}]"),
                 format!("this component is {}", components[index]),
-                "it must be a finite number",
+                "it must be a number between -1e7 and 1e7",
             );
             return None;
         }
@@ -187,6 +191,9 @@ impl<'a> Checker<'a> {
         }
     }
 }
+
+/// Beyond this a coordinate leaves too few digits for particles millimetres apart.
+const LARGEST_COMPONENT: f64 = 1e7;
 
 /// Names of the axes.
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];

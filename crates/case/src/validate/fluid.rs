@@ -1,12 +1,14 @@
 //! The fluid: parameters, lattice and blocks.
 
-use crate::format::{BlockForm, CaseForm, DissipationForm, Fit, FluidForm, PressureForm, SoundSpeedForm};
+use crate::format::{
+    BlockForm, CaseForm, DissipationForm, Fit, FluidForm, PressureForm, SoundSpeedForm,
+};
 use crate::geometry::{Point, Region, union};
 use crate::lattice::{Lattice, ON_PLANE};
 use crate::plan::{BlockPlan, FluidPlan};
 
 use super::checker::{FACES, short};
-use super::{Checker, shape};
+use super::{Checker, shape, walls};
 
 /// Fewest wall layers (design §3).
 const FEWEST_LAYERS: f64 = 3.0;
@@ -33,8 +35,7 @@ pub(crate) fn plan(
         return None;
     }
     let first = blocks[0].region.bounds().0;
-    let origin =
-        check.vector_or("fluid.lattice_origin", form.lattice_origin.as_ref(), first)?;
+    let origin = check.vector_or("fluid.lattice_origin", form.lattice_origin.as_ref(), first)?;
     let lattice = Lattice { origin, spacing: form.spacing, dimension: check.dimension };
     let smoothing_length = form.smoothing_ratio * form.spacing;
     let layers = (2.0 * form.smoothing_ratio - 1e-9).ceil().max(FEWEST_LAYERS) as i64;
@@ -67,14 +68,12 @@ fn parameters(form: &FluidForm, check: &mut Checker<'_>) -> bool {
     valid &= check.within("fluid.density_diffusion", diffusion, "", inside, "between 0 and 0.2");
     let courant = form.courant_number;
     let inside = courant > 0.0 && courant <= 1.0;
-    valid &=
-        check.within("fluid.courant_number", courant, "", inside, "above 0 and at most 1");
+    valid &= check.within("fluid.courant_number", courant, "", inside, "above 0 and at most 1");
     match form.dissipation {
         DissipationForm::None => {}
         DissipationForm::Artificial { alpha } => {
             let inside = (0.0..=1.0).contains(&alpha);
-            valid &=
-                check.within("fluid.dissipation.alpha", alpha, "", inside, "between 0 and 1");
+            valid &= check.within("fluid.dissipation.alpha", alpha, "", inside, "between 0 and 1");
         }
         DissipationForm::Riemann { limiter } => {
             let inside = limiter > 0.0 && limiter <= 100.0;
@@ -111,11 +110,14 @@ fn block(form: &BlockForm, path: &str, check: &mut Checker<'_>) -> Option<BlockP
 fn fit_blocks(plan: &mut FluidPlan, fit: Fit, check: &mut Checker<'_>) {
     let lattice = plan.lattice.clone();
     for (index, block) in plan.blocks.iter_mut().enumerate() {
-        let Some((lower, upper)) = block.region.as_box() else { continue };
         let path = format!("fluid.blocks[{index}].shape");
+        shape::searchable(&block.region, lattice.spacing, &path, check);
+        let Some((lower, upper)) = block.region.as_box() else { continue };
         match fit {
             Fit::Exact => exact(&block.name, &lattice, (lower, upper), &path, check),
             Fit::Nearest => {
+                let name = format!("fluid block `{}`", block.name);
+                walls::report_rounding(&name, (lower, upper), [[true; 2]; 3], &lattice, check);
                 let place = |corner: Point| {
                     Point::from_fn(|axis, _| match axis < lattice.dimension {
                         true => lattice.plane_coordinate(axis, lattice.plane(axis, corner[axis])),
@@ -205,8 +207,7 @@ pub(crate) fn fitting_spacings(sizes: &[f64], spacing: f64) -> Vec<f64> {
     };
     // Beyond a factor of four it would be another case.
     let steps = |from: f64| (0..).map(move |k| from + f64::from(k));
-    let finer =
-        steps(start.ceil().max(1.0)).take_while(|n| *n <= 4.0 * start.max(1.0)).find(fits);
+    let finer = steps(start.ceil().max(1.0)).take_while(|n| *n <= 4.0 * start.max(1.0)).find(fits);
     let coarser = (0..)
         .map(|k| start.floor() - f64::from(k))
         .take_while(|n| *n >= 1.0 && *n >= 0.25 * start)

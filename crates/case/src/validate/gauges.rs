@@ -56,12 +56,10 @@ fn kind(
     }
     match gauge {
         GaugeForm::Pressure { position, .. } => {
-            inside(&format!("{path}.position"), position, parts, check)
-                .map(GaugeKindPlan::Pressure)
+            inside(&format!("{path}.position"), position, parts, check).map(GaugeKindPlan::Pressure)
         }
         GaugeForm::Velocity { position, .. } => {
-            inside(&format!("{path}.position"), position, parts, check)
-                .map(GaugeKindPlan::Velocity)
+            inside(&format!("{path}.position"), position, parts, check).map(GaugeKindPlan::Velocity)
         }
         GaugeForm::WaterLevel { base, top, .. } => {
             let base = inside(&format!("{path}.base"), base, parts, check);
@@ -86,8 +84,7 @@ fn kind(
                 .map(|(body, position)| GaugeKindPlan::Stress(body, position))
         }
         GaugeForm::Force { on, about, .. } => {
-            let about =
-                check.vector_or(&format!("{path}.about"), about.as_ref(), Point::zeros());
+            let about = check.vector_or(&format!("{path}.about"), about.as_ref(), Point::zeros());
             let target = target(on, &format!("{path}.on"), parts, check);
             Some(GaugeKindPlan::Force(target?, about?))
         }
@@ -136,8 +133,7 @@ fn in_body(
     if distance <= solid.point_spacing {
         return Some((body, position));
     }
-    let message =
-        format!("{} is in no body", position_text(&position, check.dimension));
+    let message = format!("{} is in no body", position_text(&position, check.dimension));
     let name = solid.bodies.get(body).map_or("", |body| &body.name);
     let help = format!(
         "the nearest body `{name}` is {} m away; give a position in the undeformed body",
@@ -147,12 +143,7 @@ fn in_body(
     None
 }
 
-fn target(
-    on: &str,
-    path: &str,
-    parts: &Parts<'_>,
-    check: &mut Checker<'_>,
-) -> Option<ForceTarget> {
+fn target(on: &str, path: &str, parts: &Parts<'_>, check: &mut Checker<'_>) -> Option<ForceTarget> {
     let mut names: Vec<(&str, ForceTarget)> = Vec::new();
     for (index, wall) in parts.walls.iter().enumerate() {
         names.push((&wall.name, ForceTarget::Wall(index)));

@@ -76,6 +76,20 @@ pub(crate) fn region(form: &ShapeForm, path: &str, check: &mut Checker<'_>) -> O
     }
 }
 
+/// Cells of a bounding box that may be tested one by one.
+const MOST_TESTED: f64 = 4e9;
+
+/// Refuses a shape so spread out that finding its few particles would take hours.
+pub(crate) fn searchable(region: &Region, spacing: f64, path: &str, check: &mut Checker<'_>) {
+    let (lower, upper) = region.bounds();
+    let cells: f64 =
+        (0..check.dimension).map(|axis| ((upper[axis] - lower[axis]) / spacing).ceil()).product();
+    if region.as_box().is_none() && cells > MOST_TESTED {
+        let message = format!("the box around this shape holds {cells:.1e} lattice cells");
+        check.problem(path, message, "split the shape, or use a larger spacing");
+    }
+}
+
 fn cylinder(
     base: &[f64],
     top: &[f64],

@@ -54,6 +54,7 @@ pub(crate) fn plan(
         .enumerate()
         .filter_map(|(index, (body, region))| {
             let path = format!("solid.bodies[{index}]");
+            shape::searchable(&region, point_spacing, &format!("{path}.shape"), check);
             if let Some(fluid) = fluid {
                 let shape_path = format!("{path}.shape");
                 walls::thick_enough("body", &body.name, &region, &shape_path, fluid, check);
@@ -81,8 +82,7 @@ pub(crate) fn plan(
 
 fn parameters(form: &SolidForm, check: &mut Checker<'_>) -> bool {
     let mut valid = check.positive("solid.grid_spacing", form.grid_spacing, "m");
-    let (points, courant, damping) =
-        (form.points_per_cell, form.courant_number, form.damping);
+    let (points, courant, damping) = (form.points_per_cell, form.courant_number, form.damping);
     let inside = (1..=4).contains(&points);
     let path = "solid.points_per_cell";
     valid &= check.within(path, f64::from(points), "", inside, "1, 2, 3 or 4");
@@ -265,15 +265,17 @@ fn boundary(
             let face = check.face(&format!("{path}.where"), name);
             face.map(|face| beyond_face(face, bounds, grid_spacing))
         }
-        LocationForm::Region { lower, upper } => region(&format!("{path}.where"), lower, upper, check)
-            .map(|(lower, upper)| {
+        LocationForm::Region { lower, upper } => {
+            region(&format!("{path}.where"), lower, upper, check).map(|(lower, upper)| {
                 let slack = Point::repeat(ON_GRID * grid_spacing);
                 (lower - slack, upper + slack)
-            }),
+            })
+        }
     };
     let components = match &form.motion {
-        BoundaryMotionForm::Fixed => [true, true, check.dimension == 3]
-            .map(|held| held.then_some(Motion::Fixed)),
+        BoundaryMotionForm::Fixed => {
+            [true, true, check.dimension == 3].map(|held| held.then_some(Motion::Fixed))
+        }
         BoundaryMotionForm::Driven { x, y, z } => {
             let mut components = [const { None }; 3];
             for (axis, component) in [x, y, z].into_iter().enumerate() {

@@ -4,7 +4,7 @@ use motion::Motion;
 
 use crate::format::{ShapeForm, WallForm, WallMotionForm};
 use crate::geometry::Point;
-use crate::lattice::ON_PLANE;
+use crate::lattice::{Lattice, ON_PLANE};
 use crate::plan::{FluidPlan, WallPlan, WallShape};
 
 use super::checker::{AXES, FACES, short};
@@ -36,9 +36,11 @@ fn wall(
         other => {
             let region = shape::region(other, &shape_path, check)?;
             if let Some(fluid) = fluid {
+                shape::searchable(&region, fluid.spacing(), &shape_path, check);
                 thick_enough("wall", &form.name, &region, &shape_path, fluid, check);
                 if let Some(corners) = region.as_box() {
-                    report_rounding(&form.name, corners, [[true; 2]; 3], fluid, check);
+                    let what = format!("wall `{}`", form.name);
+                    report_rounding(&what, corners, [[true; 2]; 3], &fluid.lattice, check);
                 }
             }
             WallShape::Filled(region)
@@ -77,16 +79,13 @@ fn tank(
     }
     let (lower, upper) = corners?;
     if let Some(fluid) = fluid {
-        report_rounding(name, (lower, upper), closed, fluid, check);
+        let what = format!("wall `{name}`");
+        report_rounding(&what, (lower, upper), closed, &fluid.lattice, check);
     }
     Some(WallShape::Tank { lower, upper, closed })
 }
 
-fn motion(
-    form: &WallMotionForm,
-    path: &str,
-    check: &mut Checker<'_>,
-) -> Option<(Point, Motion)> {
+fn motion(form: &WallMotionForm, path: &str, check: &mut Checker<'_>) -> Option<(Point, Motion)> {
     let direction = check.direction(&format!("{path}.motion.direction"), &form.direction);
     let law = law(&form.law.motion(), &format!("{path}.motion.law"), check);
     Some((direction?, law?))
@@ -139,14 +138,13 @@ pub(crate) fn thick_enough(
 }
 
 /// Tells where faces that miss the lattice will be.
-fn report_rounding(
-    name: &str,
+pub(crate) fn report_rounding(
+    what: &str,
     (lower, upper): (Point, Point),
     used: [[bool; 2]; 3],
-    fluid: &FluidPlan,
+    lattice: &Lattice,
     check: &mut Checker<'_>,
 ) {
-    let lattice = &fluid.lattice;
     let mut moved = Vec::new();
     for axis in 0..lattice.dimension {
         for (side, coordinate) in [lower[axis], upper[axis]].into_iter().enumerate() {
@@ -164,9 +162,6 @@ fn report_rounding(
         }
     }
     if !moved.is_empty() {
-        check.warn(format!(
-            "wall `{name}`: faces move to the particle lattice: {}",
-            moved.join(", ")
-        ));
+        check.warn(format!("{what}: faces move to the particle lattice: {}", moved.join(", ")));
     }
 }

@@ -8,7 +8,7 @@ const HALF_VIEW: f64 = 0.52;
 /// Width over height of the 3D pane.
 const ASPECT: f64 = 1.25;
 
-/// Room around the scene.
+/// Room around a plane scene. A box seen from an angle leaves room by itself.
 const MARGIN: f64 = 1.12;
 
 /// Corners of the box around all points.
@@ -53,7 +53,7 @@ impl Camera {
             (direction, width, height, size[1], [0.0, 0.0, 1.0])
         };
         let fit = (0.5 * width / ASPECT).max(0.5 * height) / HALF_VIEW;
-        let distance = MARGIN * fit + 0.5 * depth;
+        let distance = if dimension == 2 { MARGIN * fit } else { 0.9 * fit + 0.5 * depth };
         let position = std::array::from_fn(|i| centre[i] + distance * direction[i]);
         Self { position, target: centre, up }
     }

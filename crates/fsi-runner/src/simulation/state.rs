@@ -85,6 +85,7 @@ fn save_fluid<const D: usize>(fluid: &Fluid<D>, checkpoint: &mut Checkpoint) {
         ("fluid.density_deviation", &particles.density_deviation),
         ("fluid.density_rate", &particles.density_rate),
         ("fluid.diffusion_rate", &particles.diffusion_rate),
+        ("fluid.filling", &particles.filling),
     ] {
         checkpoint.reals.insert(name.into(), values.clone());
     }
@@ -127,6 +128,7 @@ fn load_fluid<const D: usize>(fluid: &mut Fluid<D>, entries: Entries<'_>) -> Res
     state.particles.density_deviation = entries.reals("fluid.density_deviation")?.clone();
     state.particles.density_rate = entries.reals("fluid.density_rate")?.clone();
     state.particles.diffusion_rate = entries.reals("fluid.diffusion_rate")?.clone();
+    state.particles.filling = entries.reals("fluid.filling")?.clone();
     let mut numbers = Numbers(entries.reals("fluid.numbers")?.iter());
     let (ledger, energy) = (&mut state.ledger, &mut state.initial_energy);
     for value in [

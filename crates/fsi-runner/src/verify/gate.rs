@@ -67,6 +67,7 @@ impl Gate {
 impl fmt::Display for Gate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::AtMost(limit) if *limit != 0.0 && limit.abs() < 1e-3 => write!(f, "<= {limit:e}"),
             Self::AtMost(limit) => write!(f, "<= {limit}"),
             Self::Within(tolerance) => {
                 // Rounded so that 0.003 prints as 0.3 and not 0.30000000000000004.
@@ -99,6 +100,13 @@ mod tests {
         assert_eq!(Gate::AtMost(1.0).judge(f64::NAN, None), Some(false));
         assert_eq!(Gate::AtMost(1.0).judge(f64::NEG_INFINITY, None), Some(false));
         assert_eq!(Gate::Within(1.0).judge(1.0, None), Some(false));
+    }
+
+    #[test]
+    fn gates_print_shortly() {
+        assert_eq!(Gate::AtMost(1e-12).to_string(), "<= 1e-12");
+        assert_eq!(Gate::AtMost(0.05).to_string(), "<= 0.05");
+        assert_eq!(Gate::Within(0.003).to_string(), "within 0.3 %");
     }
 
     #[test]

@@ -79,9 +79,11 @@ impl Scene {
                 for k in 0..n {
                     let [x, y, z] = [i, j, k].map(|m| (m as f64 + 0.5) * dx);
                     let tilt = 0.3 * (x / length - 0.5) * (4.0 * time).sin();
-                    position.push([x, y, z * (1.0 + tilt)]);
-                    velocity.extend([0.1 * (4.0 * time).cos(), 0.0, tilt]);
-                    pressure.push(1000.0 * 9.81 * (HEIGHT - z) * (1.0 + tilt));
+                    // Disorder, so that files compress as those of real runs do.
+                    let [a, b, c] = disorder(position.len()).map(|r| 0.2 * dx * r);
+                    position.push([x + a, y + b, z * (1.0 + tilt) + c]);
+                    velocity.extend([0.1 * (4.0 * time).cos() + a, b, tilt + c]);
+                    pressure.push(1000.0 * 9.81 * (HEIGHT - z) * (1.0 + tilt) + 1e3 * a);
                 }
             }
         }
@@ -118,6 +120,12 @@ impl Scene {
         ];
         cloud("solid/seawall", CloudKind::Solid, dx, position, fields)
     }
+}
+
+/// Three numbers between -1 and 1 that follow no pattern (fractions of n φ).
+fn disorder(n: usize) -> [f64; 3] {
+    [0.618_033_988_749_895, 0.754_877_666_246_693, 0.819_172_513_396_164]
+        .map(|step| 2.0 * (n as f64 * step).fract() - 1.0)
 }
 
 fn cloud(

@@ -1,0 +1,122 @@
+//! What the seeded particles and points must satisfy.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use case::{Case, ForceTarget, GaugeKind, Model};
+use gimpm::InitialVelocity;
+use nalgebra::{Vector2, vector};
+
+fn build<const D: usize>(name: &str, overrides: &[&str]) -> Model<D> {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name);
+    let overrides: Vec<String> = overrides.iter().map(|argument| (*argument).into()).collect();
+    Case::load(path, &overrides).unwrap().build().unwrap()
+}
+
+#[test]
+fn still_water_has_the_density_of_its_depth() {
+    let fluid = build::<2>("hydrostatic_tank", &[]).fluid.unwrap();
+    let parameters = &fluid.parameters;
+    assert!((parameters.sound_speed - 20.0 * 9.81_f64.sqrt()).abs() < 1e-12);
+    for seed in &fluid.particles {
+        let pressure = parameters.sound_speed.powi(2) * seed.density_deviation;
+        let expected = 1000.0 * 9.81 * (1.0 - seed.position.y);
+        assert!((pressure - expected).abs() < 1e-8 * 9810.0, "{seed:?}");
+    }
+}
+
+#[test]
+fn walls_continue_the_lattice_and_keep_half_a_spacing_from_the_face() {
+    let fluid = build::<2>("hydrostatic_tank", &[]).fluid.unwrap();
+    let spacing = fluid.parameters.spacing;
+    let on_lattice = |p: &Vector2<f64>| {
+        p.iter().all(|c| (c / spacing - 0.5 - (c / spacing - 0.5).round()).abs() < 1e-9)
+    };
+    let wall = &fluid.walls[0];
+    assert!(wall.points.iter().all(on_lattice));
+    assert!(fluid.particles.iter().all(|seed| on_lattice(&seed.position)));
+    let highest_below = wall.points.iter().map(|p| p.y).filter(|y| *y < 0.0).fold(-1.0, f64::max);
+    assert!((highest_below + 0.5 * spacing).abs() < 1e-12);
+    // 46 columns of 3 layers below, 3 columns on each side up to the open top.
+    assert_eq!(wall.points.len(), 3 * 46 + 2 * 3 * 50);
+}
+
+#[test]
+fn the_block_has_its_mass_and_holds_its_end_planes() {
+    let solid = build::<3>("uniaxial_compression", &[]).solid.unwrap();
+    assert_eq!(solid.bodies[0].points.len(), 16_000);
+    let sum: nalgebra::Vector3<f64> = solid.bodies[0].points.iter().sum();
+    assert!((sum / 16_000.0 - vector![0.5, 0.5, 1.0]).norm() < 1e-12);
+    let held = |constraint: usize, p: [f64; 3]| {
+        let constraint = &solid.constraints[constraint];
+        (0..3).all(|axis| constraint.lower[axis] <= p[axis] && p[axis] <= constraint.upper[axis])
+    };
+    for (constraint, planes, free) in [(0, [0.0, -0.1], 0.1), (1, [2.0, 2.1], 1.9)] {
+        for z in planes {
+            assert!(held(constraint, [0.0, 1.0, z]) && held(constraint, [-0.1, 1.1, z]), "{z}");
+            assert!(!held(constraint, [-0.2, 0.5, z]));
+        }
+        assert!(!held(constraint, [0.5, 0.5, free]));
+    }
+    let parameters = &solid.parameters;
+    for axis in 0..3 {
+        let cells = -parameters.grid_origin[axis] / parameters.grid_spacing;
+        assert!((cells - cells.round()).abs() < 1e-9);
+        let upper = parameters.grid_origin[axis] + parameters.grid_cells[axis] as f64 * 0.1;
+        assert!(parameters.grid_origin[axis] <= -0.3 + 1e-9 && upper >= 1.3 - 1e-9);
+    }
+    // The end displacement is a thousandth of the grid spacing.
+    let press = solid.constraints[1].components[2].as_ref().unwrap();
+    assert!((press.displacement(8.049845e-3) + 1e-4).abs() < 1e-9);
+}
+
+#[test]
+fn the_mode_is_a_quarter_sine_along_the_bar() {
+    let body = build::<2>("bar_mode_1", &[]).solid.unwrap().bodies.remove(0);
+    let InitialVelocity::PerPoint(velocity) = body.velocity else { panic!("one velocity only") };
+    for (v, p) in velocity.iter().zip(&body.points) {
+        let expected = 0.1 * (std::f64::consts::PI * p.x / 50.0).sin();
+        assert!((v - vector![expected, 0.0]).norm() < 1e-15);
+    }
+}
+
+#[test]
+fn gauges_find_what_they_name() {
+    let model = build::<3>("tsunami_wall", &["fluid.spacing=0.125", "solid.grid_spacing=0.2"]);
+    let target = |name: &str| {
+        let gauge = model.gauges.iter().find(|gauge| gauge.name == name).unwrap();
+        match &gauge.kind {
+            GaugeKind::Force { target, .. } => *target,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(target("load"), ForceTarget::Body(0));
+    assert_eq!(target("base_reaction"), ForceTarget::Boundary(0));
+    assert_eq!(model.estimate.material_points, 800);
+    assert!(model.case_text.contains("spacing: 0.125"));
+    // μ = 2400 · 0.4/(1000 · 0.125)
+    assert!((model.coupling.mass_ratio - 7.68).abs() < 1e-9);
+}
+
+#[test]
+fn a_beach_is_a_flat_face_at_half_a_spacing() {
+    let text = r#"(
+        name: "beach", dimension: 2, end_time: 1.0,
+        fluid: (spacing: 0.02, blocks: [(name: "water", shape: Compose([
+            Add(Box(lower: [0, 0], upper: [2, 0.3])),
+            Subtract(Moved(shape: Box(lower: [1, -1], upper: [4, 0]), rotate: (degrees: 20, about: [1, 0]))),
+        ]))]),
+        walls: [
+            (name: "bed", shape: Tank(lower: [0, 0], upper: [3, 1], open: ["y+", "x+"])),
+            (name: "beach", shape: Moved(shape: Box(lower: [1, -1], upper: [4, 0]), rotate: (degrees: 20, about: [1, 0]))),
+        ],
+        output: (frame_interval: 0.1),
+    )"#;
+    let fluid = Case::parse("beach.ron", text, &[]).unwrap().build::<2>().unwrap().fluid.unwrap();
+    let angle = 20_f64.to_radians();
+    let normal = vector![-angle.sin(), angle.cos()];
+    let heights = fluid.walls[1].points.iter().map(|p| (p - vector![1.0, 0.0]).dot(&normal));
+    let highest = heights.fold(f64::NEG_INFINITY, f64::max);
+    assert!((highest + 0.01).abs() < 1e-12, "{highest}");
+    assert!(
+        fluid.particles.iter().all(|seed| (seed.position - vector![1.0, 0.0]).dot(&normal) > 0.0)
+    );
+}
