@@ -75,7 +75,6 @@ fn coupling(plan: &Plan) -> CouplingParameters {
             .iter()
             .map(|body| body.material.density * body.region.thickness() / layer)
             .fold(f64::INFINITY, f64::min);
-        parameters.correction_tolerance = 1e-3 * fluid.sound_speed;
     }
     parameters
 }

@@ -19,8 +19,10 @@ pub struct CouplingParameters {
     /// μ = ρ_s t / (ρ dx) with the wall thickness t; decides
     /// [`Correctors::Automatic`]. Infinite when nothing is coupled.
     pub mass_ratio: f64,
-    /// A corrector is skipped when no wall point's velocity changes by more
-    /// than this (m/s); the design's value is 1e-3 c0.
+    /// A corrector is skipped when no loaded point's velocity changes by more
+    /// than this (m/s). 0 by default: 1e-3 c0, small for the fluid, is a
+    /// pressure of 1e-3 ρ c0², and a concrete wall whose corrector is skipped
+    /// for it is rung up by the lag of one step.
     pub correction_tolerance: f64,
     /// Upper limit of the solid's sub-steps in one fluid step.
     pub largest_substep_count: u32,

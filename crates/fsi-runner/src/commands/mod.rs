@@ -3,6 +3,7 @@
 mod check;
 mod export;
 mod list;
+mod picture;
 mod run;
 mod verify;
 
@@ -26,6 +27,6 @@ pub fn execute(cli: Cli) -> Result<(), Failure> {
         Command::List { cases } => list::execute(&cases),
         Command::Verify(arguments) => verify::execute(&arguments),
         Command::Export { run, .. } => export::execute(&run),
-        Command::Picture { .. } => Ok(()),
+        Command::Picture { run, frame, out } => picture::execute(&run, frame, &out),
     }
 }

@@ -7,6 +7,7 @@
 //! | `*.vtkhdf` (on request) | [`vtkhdf::export_vtkhdf`] | ParaView, VTK |
 //! | `gauges.csv`, `ledger.csv` | [`csv_table::CsvTable`] | anything |
 //! | `checkpoint.h5` | [`checkpoint::Checkpoint`] | `run --resume` |
+//! | a PNG (on request) | [`picture::draw`] | anything |
 //! | `<case>.rrd` or a live viewer | [`rerun_log::RerunLog`] | Rerun |
 //!
 //! The solvers know none of this: the run loop turns their state into a
@@ -19,6 +20,7 @@ pub mod error;
 pub mod frame;
 mod history;
 pub mod layout;
+pub mod picture;
 pub mod plots;
 pub mod progress;
 pub mod replace_file;

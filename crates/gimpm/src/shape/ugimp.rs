@@ -30,21 +30,31 @@ impl ShapeFunction for Ugimp {
         1.0 + self.half_width
     }
 
-    /// Branch-free: the box touches the cell of `base` and, by the length `c`,
-    /// the next one; the part in the next cell moves weight from the first two
-    /// nodes to the third.
+    /// The box touches the cell of `base` and, by the length `c`, the next one;
+    /// the part in the next cell moves weight from the first two nodes to the third.
+    ///
+    /// A small weight must not be a difference of large ones: its error would be
+    /// that of the force over it, and where it came out at or below 0 the node
+    /// would be dropped with a force of the square root of the rounding. So the first node's weight is formed
+    /// from the length that is left in its cell.
     #[inline(always)]
     fn weights(&self, x: f64) -> AxisWeights {
         let base = (x - self.half_width).floor();
         let t = x - base;
         let c = (t - (1.0 - self.half_width)).max(0.0);
-        let slope = 2.0 * c * self.quarter_inverse;
         let third = c * c * self.quarter_inverse;
+        let third_slope = 2.0 * c * self.quarter_inverse;
+        let left = (2.0 * self.half_width - c).max(0.0);
+        let (first, first_slope) = if c > 0.0 {
+            (left * left * self.quarter_inverse, -2.0 * left * self.quarter_inverse)
+        } else {
+            (1.0 - t, -1.0)
+        };
         AxisWeights {
             base: base as i32,
             count: if c > 0.0 { 3 } else { 2 },
-            value: [1.0 - t + third, t - 2.0 * third, third],
-            gradient: [slope - 1.0, 1.0 - 2.0 * slope, slope],
+            value: [first, 1.0 - first - third, third],
+            gradient: [first_slope, -first_slope - third_slope, third_slope],
         }
     }
 }
