@@ -40,7 +40,8 @@ impl CouplingLedger {
     /// The residual is
     /// `|I_fluid + ΔP_solid - I_gravity - I_supports| / (Δt Σ|f_p| + |I_gravity| + |I_supports|)`:
     /// what the fluid side and the solid side, supports included, disagree by,
-    /// relative to the impulses that passed; 0 where none did.
+    /// relative to the impulses that passed. Where the fluid passes none, `Σ m|v|` of the
+    /// solid joins the denominator: the reaction of a vibrating solid goes through 0.
     pub(crate) fn close_step<const D: usize>(
         &mut self,
         balance: &StepBalance<D>,
@@ -56,7 +57,8 @@ impl CouplingLedger {
             let mean = mean_velocity[index];
             [force.norm(), force.dot(&mean), force.dot(&(assumed_velocity[index] - mean))]
         });
-        let scale = balance.dt * size + solid.gravity.norm() + solid.supports.norm();
+        let passed = balance.dt * size + solid.gravity.norm() + solid.supports.norm();
+        let scale = if size > 0.0 { passed } else { passed + solid.magnitude };
         self.momentum_residual = if scale > 0.0 { residual.norm() / scale } else { 0.0 };
         self.largest_in_row = self.largest_in_row.max(self.momentum_residual);
         self.largest_momentum_residual =

@@ -35,13 +35,15 @@ pub struct SolidImpulse<const D: usize> {
     pub gravity: SVector<f64, D>,
     /// Impulse of the supports on the solid.
     pub supports: SVector<f64, D>,
+    /// Σ m |v| at the end: the size that round-off of the momentum has.
+    pub magnitude: f64,
 }
 
 impl<const D: usize> SolidImpulse<D> {
     /// No momentum exchanged.
     pub fn zero() -> Self {
         let zero = SVector::zeros();
-        Self { momentum_change: zero, gravity: zero, supports: zero }
+        Self { momentum_change: zero, gravity: zero, supports: zero, magnitude: 0.0 }
     }
 }
 

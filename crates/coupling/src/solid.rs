@@ -46,6 +46,10 @@ impl<const D: usize> SolidSide<D> for Solid<D> {
             impulse.supports += held.iter().map(|reaction| reaction.force * substep).sum::<SVector<f64, D>>();
         }
         impulse.momentum_change = self.momentum() - start;
+        let points = Solid::points(self);
+        [impulse.magnitude] = ordered_reduction::sum(points.len(), |point| {
+            [points.mass[point] * points.velocity[point].norm()]
+        });
         impulse.gravity = self.parameters().gravity * (self.total_mass() * dt);
         end_position.copy_from_slice(&Solid::points(self).position);
         Ok(impulse)

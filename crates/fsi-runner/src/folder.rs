@@ -59,6 +59,12 @@ impl RunFolder {
         self.path.join(format!("{}.rrd", self.name))
     }
 
+    /// `NAME-from-STEP.rrd`: recordings cannot be appended to, so a resumed run writes its
+    /// own, which the viewer shows as one with the first.
+    pub fn resumed_rerun(&self, step: u64) -> PathBuf {
+        self.path.join(format!("{}-from-{step}.rrd", self.name))
+    }
+
     /// `gauges.csv`.
     pub fn gauges(&self) -> PathBuf {
         self.path.join("gauges.csv")

@@ -22,6 +22,7 @@ pub(crate) fn seed<const D: usize>(
     source: &Source,
     notes: &mut Vec<String>,
 ) -> Result<FluidModel<D>, CaseError> {
+    let parameters = parameters(fluid, plan);
     let mut particles = Vec::new();
     let mut owner: HashMap<[i64; 3], usize> = HashMap::new();
     for (index, block) in fluid.blocks.iter().enumerate() {
@@ -54,7 +55,7 @@ pub(crate) fn seed<const D: usize>(
             positions.len(),
             extent_text(&positions, fluid.spacing())
         ));
-        particles.extend(states::<D>(block, &centers, fluid, &plan.gravity));
+        particles.extend(states(block, &centers, &parameters));
     }
     let walls = walls::seed(fluid, plan, source, notes)?;
     overlap::fluid_near_wall(&particles, &walls, fluid.spacing(), source)?;
@@ -64,7 +65,7 @@ pub(crate) fn seed<const D: usize>(
         short(fluid.smoothing_length),
         short(fluid.sound_speed)
     ));
-    Ok(FluidModel { parameters: parameters(fluid, plan), particles, walls })
+    Ok(FluidModel { parameters, particles, walls })
 }
 
 fn parameters<const D: usize>(fluid: &FluidPlan, plan: &Plan) -> FluidParameters<D> {
@@ -99,29 +100,33 @@ fn cells(block: &BlockPlan, fluid: &FluidPlan) -> Vec<[i64; 3]> {
         .collect()
 }
 
-/// Velocity and density of the particles of one block: at rest under gravity the
-/// linear equation of state p = c0² (ρ-ρ0) holds ρ0 g times the depth.
+/// Position, velocity and density of the particles of one block. At rest under gravity
+/// the particles carry the water above them, and stand as much closer as that
+/// compresses them ([`FluidSeed::at_rest`]).
 fn states<const D: usize>(
     block: &BlockPlan,
     centers: &[Point],
-    fluid: &FluidPlan,
-    gravity: &Point,
+    parameters: &FluidParameters<D>,
 ) -> Vec<FluidSeed<D>> {
-    let sound_speed_squared = fluid.sound_speed * fluid.sound_speed;
-    let surface = centers.iter().map(|p| -p.dot(gravity)).fold(f64::NEG_INFINITY, f64::max)
-        + 0.5 * fluid.spacing() * gravity.norm();
+    let up = -parameters.gravity / parameters.gravity.norm().max(f64::MIN_POSITIVE);
+    let heights = || centers.iter().map(|p| shrink::<D>(p).dot(&up));
+    let half = 0.5 * parameters.spacing;
+    let floor = heights().fold(f64::INFINITY, f64::min) - half;
+    let surface = heights().fold(f64::NEG_INFINITY, f64::max) + half;
     centers
         .iter()
         .map(|p| {
-            let pressure = match block.pressure {
-                PressureForm::Hydrostatic => fluid.density * (surface + p.dot(gravity)),
-                PressureForm::Uniform(pressure) => pressure,
+            let seed = match block.pressure {
+                PressureForm::Hydrostatic => {
+                    FluidSeed::at_rest(parameters, shrink(p), floor, surface)
+                }
+                PressureForm::Uniform(pressure) => FluidSeed {
+                    position: shrink(p),
+                    density_deviation: pressure / parameters.sound_speed.powi(2),
+                    ..FluidSeed::default()
+                },
             };
-            FluidSeed {
-                position: shrink(p),
-                velocity: shrink(&block.velocity),
-                density_deviation: pressure / sound_speed_squared,
-            }
+            FluidSeed { velocity: shrink(&block.velocity), ..seed }
         })
         .collect()
 }

@@ -15,13 +15,16 @@ use crate::failure::Failure;
 /// # Errors
 /// [`Failure`] with the message and the exit code.
 pub fn execute(cli: Cli) -> Result<(), Failure> {
-    if let Some(threads) = cli.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .map_err(Failure::run)?;
-    }
-    match cli.command {
+    // 0 means one thread a core. Inside the pool a parallel loop costs microseconds; started
+    // from outside, each of the hundreds in a coupled step would wake the pool anew.
+    let threads = usize::from(cli.threads.unwrap_or(0));
+    let pool =
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::run)?;
+    pool.install(|| carry_out(cli.command))
+}
+
+fn carry_out(command: Command) -> Result<(), Failure> {
+    match command {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
         Command::List { cases } => list::execute(&cases),

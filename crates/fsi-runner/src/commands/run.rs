@@ -14,6 +14,7 @@ use crate::locate;
 use crate::output::checkpoint::{Checkpoint, case_fingerprint};
 use crate::output::frame::RunHeader;
 use crate::output::rerun_options::RerunTarget;
+use crate::output::run_reader::RunReader;
 use crate::recorder::{Recorder, RecorderSettings};
 use crate::run::{Ending, Recorded, Schedule, run};
 use crate::simulation;
@@ -32,14 +33,7 @@ pub fn execute(arguments: &RunArguments) -> Result<(), Failure> {
     } else {
         folder::choose(arguments.out.as_deref(), case.name(), arguments.overwrite)?
     };
-    let target = if arguments.viewer {
-        Some(RerunTarget::Spawn)
-    } else if arguments.no_rrd || cfg!(not(feature = "rerun")) {
-        None
-    } else {
-        Some(RerunTarget::File(arguments.rrd.clone().unwrap_or_else(|| folder.rerun())))
-    };
-    run_case(&case, folder, arguments, target)
+    run_case(&case, folder, arguments)
 }
 
 /// Runs a checked case into a folder.
@@ -50,7 +44,6 @@ pub fn run_case(
     case: &Case,
     folder: RunFolder,
     arguments: &RunArguments,
-    target: Option<RerunTarget>,
 ) -> Result<(), Failure> {
     let overrides = &arguments.case.overrides;
     let end_time = arguments.until.unwrap_or_else(|| case.end_time());
@@ -73,17 +66,16 @@ pub fn run_case(
     // Only the first run of a process can install the handler; `verify` runs several.
     let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
 
+    let target = rerun_target(arguments, &folder, simulation.steps());
     let recording = match &target {
         Some(RerunTarget::File(path)) => Some(path.clone()),
         _ => None,
     };
-    let header = RunHeader::new(
-        case.name(),
-        case.text(),
-        overrides,
-        case.dimension(),
-        case.gravity(),
-    );
+    let header = if arguments.resume {
+        RunReader::open(&folder.hdf5())?.header()?
+    } else {
+        RunHeader::new(case.name(), case.text(), overrides, case.dimension(), case.gravity())
+    };
     let settings = RecorderSettings {
         folder: folder.clone(),
         header: &header,
@@ -114,6 +106,18 @@ pub fn run_case(
             overrides.iter().map(|item| format!(" --set '{item}'")).collect::<String>(),
         ))),
     }
+}
+
+/// Where the run is logged for Rerun, when it begins at `step`.
+fn rerun_target(arguments: &RunArguments, folder: &RunFolder, step: u64) -> Option<RerunTarget> {
+    if arguments.viewer {
+        return Some(RerunTarget::Spawn);
+    }
+    if arguments.no_rrd || cfg!(not(feature = "rerun")) {
+        return None;
+    }
+    let usual = || if arguments.resume { folder.resumed_rerun(step) } else { folder.rerun() };
+    Some(RerunTarget::File(arguments.rrd.clone().unwrap_or_else(usual)))
 }
 
 fn print_opening(case: &Case, simulation: &dyn simulation::Simulation, folder: &RunFolder) {

@@ -114,7 +114,7 @@ impl Prepared {
                 rrd: None,
                 no_rrd: true,
             };
-            run_case(&self.case, folder.clone(), &run, None)?;
+            run_case(&self.case, folder.clone(), &run)?;
         }
         let histories = Histories::read(&folder.path).map_err(Failure::run)?;
         let points = LastFrame { folder };

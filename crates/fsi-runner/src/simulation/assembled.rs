@@ -2,6 +2,7 @@
 
 use case::Gauge;
 use coupling::{Coupled, CouplingError, FluidSide, SolidSide, TimeStepLimit};
+use gimpm::Reaction;
 
 use super::gauges::GaugeBoard;
 use super::sides::{ObservedFluid, ObservedSolid};
@@ -25,6 +26,21 @@ where
     pub fn new(coupled: Coupled<D, F, S>, gauges: Vec<Gauge<D>>) -> Self {
         let gauges = GaugeBoard::new(gauges, coupled.solid().observed());
         Self { coupled, gauges }
+    }
+
+    /// Reactions of the solid's boundaries: of the present state for a solid alone, of
+    /// the last sub-step in water, whose load acts on the nodes only during a step. The
+    /// two differ by what the load changes in one sub-step.
+    fn reactions(&mut self) -> Vec<Reaction<D>> {
+        let alone = self.coupled.fluid().observed().is_none();
+        let Some(solid) = self.coupled.solid_mut().observed_mut() else { return Vec::new() };
+        let present = alone
+            .then(|| solid.stable_time_step().and_then(|dt| solid.current_reactions(dt.value)));
+        match present {
+            Some(Ok(reactions)) => reactions,
+            // A state that cannot take a step is reported by that step.
+            Some(Err(_)) | None => solid.state().reactions.clone(),
+        }
     }
 }
 
@@ -68,8 +84,9 @@ where
         self.gauges.columns()
     }
 
-    fn gauge_row(&self) -> Vec<f64> {
-        self.gauges.row(&self.coupled)
+    fn gauge_row(&mut self) -> Vec<f64> {
+        let reactions = self.reactions();
+        self.gauges.row(&self.coupled, &reactions)
     }
 
     fn ledger_columns(&self) -> Vec<Column> {

@@ -2,7 +2,7 @@
 
 use case::{ForceTarget, Gauge, GaugeKind};
 use coupling::{Coupled, FluidSide, SolidSide};
-use gimpm::Solid;
+use gimpm::{Reaction, Solid};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use nalgebra::SVector;
 
@@ -43,7 +43,7 @@ impl<const D: usize> GaugeBoard<D> {
     }
 
     /// Values now.
-    pub fn row<F, S>(&self, coupled: &Coupled<D, F, S>) -> Vec<f64>
+    pub fn row<F, S>(&self, coupled: &Coupled<D, F, S>, reactions: &[Reaction<D>]) -> Vec<f64>
     where
         F: FluidSide<D> + ObservedFluid<D>,
         S: SolidSide<D> + ObservedSolid<D>,
@@ -53,7 +53,7 @@ impl<const D: usize> GaugeBoard<D> {
         let place = coupled.solid().observed().map(|solid| place_of_identity(&solid.points().id));
         for (gauge, followed) in self.gauges.iter().zip(&self.followed) {
             let index = followed.zip(place.as_ref()).map(|(id, place)| place[id as usize]);
-            read(&gauge.kind, index, coupled, &mut row);
+            read(&gauge.kind, index, coupled, reactions, &mut row);
         }
         row
     }
@@ -131,6 +131,7 @@ fn read<const D: usize, F, S>(
     kind: &GaugeKind<D>,
     followed: Option<usize>,
     coupled: &Coupled<D, F, S>,
+    reactions: &[Reaction<D>],
     row: &mut Vec<f64>,
 ) where
     F: FluidSide<D> + ObservedFluid<D>,
@@ -167,7 +168,9 @@ fn read<const D: usize, F, S>(
         GaugeKind::Force { target, about } => {
             let (force, moment) = match *target {
                 ForceTarget::Wall(wall) => fluid.map(|fluid| fluid.wall_force(wall, about)),
-                ForceTarget::Boundary(index) => solid.map(|solid| solid.reaction(index, *about)),
+                ForceTarget::Boundary(index) => {
+                    reactions.get(index).map(|held| (held.force, held.moment_about(about)))
+                }
                 ForceTarget::Body(body) => Some(body_load(coupled, body, about)),
             }
             .unwrap_or((SVector::zeros(), [0.0; 3]));

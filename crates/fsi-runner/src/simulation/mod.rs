@@ -62,7 +62,7 @@ pub trait Simulation: Send {
     fn gauge_columns(&self) -> Vec<Column>;
 
     /// Gauge values now.
-    fn gauge_row(&self) -> Vec<f64>;
+    fn gauge_row(&mut self) -> Vec<f64>;
 
     /// Names and units of the ledger row.
     fn ledger_columns(&self) -> Vec<Column>;

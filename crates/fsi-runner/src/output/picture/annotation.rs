@@ -82,15 +82,15 @@ impl Annotation<'_> {
         Ok(())
     }
 
-    /// Along the lower front edge, the left edge and, in space, the lower right edge.
+    /// Along the lower front edge, the left edge and, in space, the lower left edge: none of
+    /// them can be hidden.
     fn axes(&self, area: &Area) -> Result<(), String> {
         let (low, high) = self.scene.frame();
         let mut axes = vec![Axis { name: "x", along: 0, from: low, side: Side::Below }];
         if self.scene.dimension() == 2 {
             axes.push(Axis { name: "y", along: 1, from: low, side: Side::Left });
         } else {
-            let right = [high[0], low[1], low[2]];
-            axes.push(Axis { name: "y", along: 1, from: right, side: Side::Right });
+            axes.push(Axis { name: "y", along: 1, from: low, side: Side::Corner });
             let back = [low[0], high[1], low[2]];
             axes.push(Axis { name: "z", along: 2, from: back, side: Side::Left });
         }
@@ -114,21 +114,23 @@ impl Annotation<'_> {
         stroke(first, last)?;
         let length = (last[0] - first[0]).hypot(last[1] - first[1]);
         for tick in ticks(start, end, length) {
-            stroke(at(tick.value, 0.0), at(tick.value, 5.0))?;
+            let foot = at(tick.value, 0.0);
+            // Another axis starts there with its own number.
+            if axis.side == Side::Corner && (last[1] - foot[1]).abs() < 14.0 {
+                continue;
+            }
+            stroke(foot, at(tick.value, 5.0))?;
             self.text(area, &tick.label, at(tick.value, 9.0), 17.0, axis.side.anchor())?;
         }
-        let name = format!("{} (m)", axis.name);
-        match axis.side {
-            Side::Below => {
-                let middle = at(0.5 * (start + end), 34.0);
-                self.text(area, &name, middle, 19.0, axis.side.anchor())
-            }
+        let middle = at(0.5 * (start + end), 34.0);
+        let (place, anchor) = match axis.side {
+            Side::Below => (middle, axis.side.anchor()),
+            // Below the numbers, where there is room for it.
+            Side::Corner => ([middle[0], middle[1] + 18.0], axis.side.anchor()),
             // Beside the axis it would have to dodge numbers of any length.
-            Side::Left | Side::Right => {
-                let above = [last[0], last[1] - 12.0];
-                self.text(area, &name, above, 19.0, (HPos::Center, VPos::Bottom))
-            }
-        }
+            Side::Left => ([last[0], last[1] - 12.0], (HPos::Center, VPos::Bottom)),
+        };
+        self.text(area, &format!("{} (m)", axis.name), place, 19.0, anchor)
     }
 
     fn text(
@@ -172,11 +174,14 @@ struct Axis {
 }
 
 /// Where an axis has its numbers.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
+    /// A lower edge, numbers below.
     Below,
+    /// An upright edge, numbers on the left.
     Left,
-    Right,
+    /// The edge between the two, numbers on the left.
+    Corner,
 }
 
 impl Side {
@@ -184,8 +189,7 @@ impl Side {
     fn outward(self) -> [f64; 2] {
         match self {
             Self::Below => [0.0, 1.0],
-            Self::Left => [-1.0, 0.0],
-            Self::Right => [1.0, 0.0],
+            Self::Left | Self::Corner => [-1.0, 0.0],
         }
     }
 
@@ -193,8 +197,7 @@ impl Side {
     fn anchor(self) -> (HPos, VPos) {
         match self {
             Self::Below => (HPos::Center, VPos::Top),
-            Self::Left => (HPos::Right, VPos::Center),
-            Self::Right => (HPos::Left, VPos::Center),
+            Self::Left | Self::Corner => (HPos::Right, VPos::Center),
         }
     }
 }
