@@ -1,8 +1,11 @@
 //! The same bits for any thread count, and after a restart.
 #![allow(clippy::unwrap_used)]
 
-use seawall_tests::{assert_same_bits, run_well};
+use fsi_runner::output::run_reader::RunReader;
+use seawall_tests::{assert_same_bits, run_well, runner};
 use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// Coupled 2D from the first step on: the gate carries the water.
 const GATE: [&str; 5] =
@@ -47,33 +50,34 @@ fn one_and_two_threads_give_the_same_bits_in_3d() {
 }
 
 #[test]
-fn a_resumed_run_gives_the_same_bits_as_an_unbroken_one() {
+fn a_run_interrupted_by_ctrl_c_and_resumed_gives_the_same_bits_as_an_unbroken_one() {
     let folder = tempfile::tempdir().unwrap();
     let (unbroken, resumed) = (folder.path().join("unbroken"), folder.path().join("resumed"));
-    // Checkpoints fall due in mid-run; the second run ends beyond one and is cut back to it.
-    let checkpoints = ["--set", "output.checkpoint_interval=0.004"];
-    let with = |more: &[&'static str]| [checkpoints.as_slice(), more].concat();
-    run(&GATE, &unbroken, &with(&["--until", "0.01"]));
-    run(&GATE, &resumed, &with(&["--until", "0.01"]));
-    let checkpoint = resumed.join("checkpoint.h5");
-    std::fs::remove_file(&checkpoint).unwrap();
-    run(&GATE, &resumed, &with(&["--until", "0.0041", "--overwrite"]));
-    run(&GATE, &resumed, &with(&["--until", "0.01", "--resume"]));
-    let last = |path: &Path| {
-        let mut sets = seawall_tests::all_bits(&path.join("elastic_gate.h5"));
-        // The short run recorded its own end as a frame and a row of its own; what must agree
-        // is the state at the common end, which is the last frame of both.
-        let count = sets.iter().filter(|(name, _)| name.ends_with(" time")).count();
-        let prefix = format!("{} ", count - 1);
-        sets.retain(|(name, _)| name.starts_with(&prefix));
-        sets.into_iter()
-            .map(|(name, bits)| (name[prefix.len()..].to_owned(), bits))
-            .collect::<Vec<_>>()
-    };
-    let (a, b) = (last(&unbroken), last(&resumed));
-    assert!(a.len() > 8, "{}", a.len());
-    for ((name, left), (other, right)) in a.iter().zip(&b) {
-        assert_eq!(name, other);
-        assert!(left == right, "`{name}` differs after the restart");
+    let end = ["--until", "0.03"];
+    run(&GATE, &unbroken, &end);
+    let mut child = runner()
+        .args(GATE)
+        .args(["--out", resumed.to_str().unwrap()])
+        .args(end)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let file = resumed.join("elastic_gate.h5");
+    let frames =
+        || RunReader::open(&file).and_then(|run| run.frames()).map_or(0, |frames| frames.len());
+    let begun = Instant::now();
+    while frames() < 4 {
+        assert!(begun.elapsed() < Duration::from_secs(120), "no 4 frames after two minutes");
+        assert!(child.try_wait().unwrap().is_none(), "the run ended before the interruption");
+        std::thread::sleep(Duration::from_millis(10));
     }
+    let signalled = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(signalled.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(resumed.join("checkpoint.h5").is_file());
+    run(&GATE, &resumed, &[&end[..], &["--resume"]].concat());
+    assert_same_bits(&unbroken.join("elastic_gate.h5"), &file);
+    let rows = |folder: &Path| std::fs::read_to_string(folder.join("gauges.csv")).unwrap();
+    assert_eq!(rows(&unbroken), rows(&resumed));
 }

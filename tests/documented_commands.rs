@@ -14,7 +14,8 @@ const ELSEWHERE: [&str; 5] =
 
 fn documents() -> Vec<PathBuf> {
     let root = repository();
-    let mut files = vec![root.join("README.md"), root.join("CONTRIBUTING.md"), root.join("tools/README.md")];
+    let mut files =
+        vec![root.join("README.md"), root.join("CONTRIBUTING.md"), root.join("tools/README.md")];
     for entry in std::fs::read_dir(root.join("docs")).unwrap() {
         files.push(entry.unwrap().path());
     }
@@ -36,8 +37,7 @@ fn commands() -> BTreeSet<String> {
                 fenced = !fenced;
             } else if fenced || line.starts_with("    ") {
                 let line = line.trim();
-                let starts =
-                    ["cargo ", "fsi-runner ", "target/", "tools/", ".ci/", ".venv/", "./"];
+                let starts = ["cargo ", "fsi-runner ", "target/", "tools/", ".ci/", ".venv/", "./"];
                 if starts.iter().chain(&ELSEWHERE).any(|start| line.starts_with(start)) {
                     // A comment after the command explains it.
                     let command = line.split("  #").next().unwrap_or(line);

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use fsi_runner::output::run_reader::RunReader;
-use seawall_tests::{run, runner};
+use seawall_tests::{run, runner, squeezed};
 use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -15,15 +15,15 @@ fn rows(path: &Path) -> usize {
 fn failed_physics_ends_with_code_3_and_keeps_the_frames() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");
-    // A speed of sound far below the flow's own speed: the water is compressed beyond the limit.
+    // Water thrown at a wall at half its speed of sound is compressed beyond the limit.
     let output = run(&[
         "run",
         "cases/dam_break_2d",
         "--no-rrd",
         "--set",
-        "fluid.sound_speed=Fixed(4.0)",
+        "fluid.sound_speed=Fixed(18.0)",
         "--set",
-        "fluid.blocks.0.velocity=[3.0, 0.0]",
+        "fluid.blocks.0.velocity=[9.0, 0.0]",
         "--set",
         "output.frame_interval=0.001",
         "--set",
@@ -34,7 +34,10 @@ fn failed_physics_ends_with_code_3_and_keeps_the_frames() {
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(3), "{message}");
     for part in ["fluid particle", "t = ", "sound speed", "readable in"] {
-        assert!(message.contains(part), "the message lacks `{part}`:\n{message}");
+        assert!(
+            squeezed(&message).contains(&squeezed(part)),
+            "the message lacks `{part}`:\n{message}"
+        );
     }
     let frames = RunReader::open(&out.join("dam_break_2d.h5")).unwrap().frames().unwrap();
     assert!(!frames.is_empty());

@@ -93,6 +93,11 @@ pub fn all_bits(path: &Path) -> Vec<(String, Vec<u64>)> {
     sets.unwrap_or_default()
 }
 
+/// A message without the line breaks and bars that wrap it to the terminal's width.
+pub fn squeezed(text: &str) -> String {
+    text.chars().filter(|c| !c.is_whitespace() && *c != '│').collect()
+}
+
 fn bits(value: &f64) -> u64 {
     value.to_bits()
 }
@@ -104,9 +109,8 @@ fn bits(value: &f64) -> u64 {
 pub fn assert_same_bits(a: &Path, b: &Path) {
     let (a, b) = (all_bits(a), all_bits(b));
     assert!(a.len() > 10, "only {} datasets: nothing was compared", a.len());
-    let names = |sets: &[(String, Vec<u64>)]| {
-        sets.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>()
-    };
+    let names =
+        |sets: &[(String, Vec<u64>)]| sets.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
     assert_eq!(names(&a), names(&b));
     for ((name, left), (_, right)) in a.iter().zip(&b) {
         assert!(left == right, "`{name}` differs");

@@ -1,8 +1,6 @@
 use nalgebra::SVector;
 
-use crate::{
-    CouplingError, FluidSide, SolidImpulse, SolidSide, StructurePoints, TimeStepLimit,
-};
+use crate::{CouplingError, FluidSide, SolidImpulse, SolidSide, StructurePoints, TimeStepLimit};
 
 /// No fluid: the solid alone.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -35,11 +33,7 @@ impl<const D: usize> FluidSide<D> for NoFluid {
         Ok(())
     }
 
-    fn finish(
-        &mut self,
-        _: f64,
-        _: &[SVector<f64, D>],
-    ) -> Result<SVector<f64, D>, CouplingError> {
+    fn finish(&mut self, _: f64, _: &[SVector<f64, D>]) -> Result<SVector<f64, D>, CouplingError> {
         Ok(SVector::zeros())
     }
 }

@@ -48,7 +48,11 @@ impl<const D: usize, F: FluidSide<D>, S: SolidSide<D>> Coupled<D, F, S> {
     ///
     /// # Errors
     /// A parameter is out of range.
-    pub fn new(fluid: F, mut solid: S, parameters: CouplingParameters) -> Result<Self, CouplingError> {
+    pub fn new(
+        fluid: F,
+        mut solid: S,
+        parameters: CouplingParameters,
+    ) -> Result<Self, CouplingError> {
         parameters.validate()?;
         let mut structure = StructurePoints::default();
         solid.points(&mut structure);

@@ -61,8 +61,7 @@ impl CouplingLedger {
         let scale = if size > 0.0 { passed } else { passed + solid.magnitude };
         self.momentum_residual = if scale > 0.0 { residual.norm() / scale } else { 0.0 };
         self.largest_in_row = self.largest_in_row.max(self.momentum_residual);
-        self.largest_momentum_residual =
-            self.largest_momentum_residual.max(self.momentum_residual);
+        self.largest_momentum_residual = self.largest_momentum_residual.max(self.momentum_residual);
         self.work_on_solid += balance.dt * work;
         self.work_mismatch += balance.dt * mismatch;
     }

@@ -65,7 +65,11 @@ impl CouplingParameters {
             return bad("mass_ratio", self.mass_ratio, "above 0");
         }
         if !(self.correction_tolerance >= 0.0 && self.correction_tolerance.is_finite()) {
-            return bad("correction_tolerance", self.correction_tolerance, "finite and not negative");
+            return bad(
+                "correction_tolerance",
+                self.correction_tolerance,
+                "finite and not negative",
+            );
         }
         if self.largest_substep_count == 0 {
             return bad("largest_substep_count", 0.0, "at least 1");

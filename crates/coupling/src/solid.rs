@@ -43,7 +43,8 @@ impl<const D: usize> SolidSide<D> for Solid<D> {
             self.scatter_point_force(load);
             self.step(substep)?;
             let held = &self.state().reactions;
-            impulse.supports += held.iter().map(|reaction| reaction.force * substep).sum::<SVector<f64, D>>();
+            impulse.supports +=
+                held.iter().map(|reaction| reaction.force * substep).sum::<SVector<f64, D>>();
         }
         impulse.momentum_change = self.momentum() - start;
         let points = Solid::points(self);

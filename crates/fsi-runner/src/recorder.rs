@@ -55,7 +55,10 @@ impl Recorder {
     ///
     /// # Errors
     /// A file cannot be created or does not belong to this run.
-    pub fn open(settings: RecorderSettings<'_>, simulation: &dyn Simulation) -> Result<Self, Failure> {
+    pub fn open(
+        settings: RecorderSettings<'_>,
+        simulation: &dyn Simulation,
+    ) -> Result<Self, Failure> {
         let RecorderSettings { folder, header, case_hash, rerun, end_time, resume } = settings;
         let (gauge_columns, ledger_columns) =
             (simulation.gauge_columns(), simulation.ledger_columns());
@@ -76,13 +79,8 @@ impl Recorder {
             })?;
             // A checkpoint of an overwritten run must not be resumed into this one.
             let _ = std::fs::remove_file(folder.checkpoint());
-            let file = RunFile::create(
-                &folder.hdf5(),
-                header,
-                &statics,
-                &gauge_columns,
-                &ledger_columns,
-            )?;
+            let file =
+                RunFile::create(&folder.hdf5(), header, &statics, &gauge_columns, &ledger_columns)?;
             let data_file = format!("{}.h5", header.case_name);
             let xdmf = XdmfSidecar::new(&folder.xdmf(), &data_file, &statics);
             let gauges = CsvTable::create(&folder.gauges(), &gauge_columns)?;

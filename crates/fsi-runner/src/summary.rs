@@ -90,7 +90,11 @@ pub fn summary(
     );
     if !extremes.columns.is_empty() {
         let width = extremes.columns.iter().map(|column| column.name.len()).max().unwrap_or(0);
-        let _ = writeln!(text, "gauges      {:width$}       smallest  at [s]        largest  at [s]", "");
+        let _ = writeln!(
+            text,
+            "gauges      {:width$}       smallest  at [s]        largest  at [s]",
+            ""
+        );
         for (column, (low, low_time, high, high_time)) in
             extremes.columns.iter().zip(&extremes.values)
         {
@@ -103,12 +107,8 @@ pub fn summary(
     }
     let _ = writeln!(text, "files       {}", folder.hdf5().display());
     let _ = writeln!(text, "            {} (ParaView)", folder.xdmf().display());
-    let _ = writeln!(
-        text,
-        "            {}, {}",
-        folder.gauges().display(),
-        folder.ledger().display()
-    );
+    let _ =
+        writeln!(text, "            {}, {}", folder.gauges().display(), folder.ledger().display());
     if let Some(recording) = recording {
         let _ = writeln!(text, "            {0}: rerun {0}", recording.display());
     }

@@ -38,10 +38,11 @@ pub fn sum<const K: usize>(count: usize, term: impl Fn(usize) -> [f64; K] + Sync
 /// assert_eq!(ordered_reduction::maximum(0, |_| 1.0), None);
 /// ```
 pub fn maximum(count: usize, value: impl Fn(usize) -> f64 + Sync) -> Option<f64> {
+    let value = &value;
     (0..count)
         .into_par_iter()
         .with_min_len(CHUNK)
-        .map(|i| value(i))
+        .map(value)
         .reduce_with(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
 

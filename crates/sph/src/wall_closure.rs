@@ -20,7 +20,7 @@ pub struct FluidSide<const D: usize> {
     /// `p_a` (Pa).
     pub pressure: f64,
     /// Share of a tension that a wall may exert on it, `τ_a` from 0 at a free surface to
-    /// 1 under water ([`tension_share`]).
+    /// 1 under water (`tension_share`).
     pub tension: f64,
 }
 

@@ -1,6 +1,8 @@
 //! A 2D water tank with a free or held block: the set-up of the coupling's tests.
 
-use gimpm::{BodySeed, InitialVelocity, LinearElastic, NodeConstraint, Shape, Solid, SolidParameters};
+use gimpm::{
+    BodySeed, InitialVelocity, LinearElastic, NodeConstraint, Shape, Solid, SolidParameters,
+};
 use nalgebra::{SVector, Vector2, vector};
 use sph::{Dissipation, Fluid, FluidParameters, FluidSeed, WallSeed};
 
@@ -42,9 +44,7 @@ impl Tank {
             })
         };
         let (columns, rows) = ((self.width / dx).round() as i32, (self.depth / dx).round() as i32);
-        let place = |i: i32, j: i32| {
-            vector![(f64::from(i) + 0.5) * dx, (f64::from(j) + 0.5) * dx]
-        };
+        let place = |i: i32, j: i32| vector![(f64::from(i) + 0.5) * dx, (f64::from(j) + 0.5) * dx];
         let mut particles = Vec::new();
         let mut wall = Vec::new();
         for j in -4..2 * rows + 4 {
@@ -104,11 +104,7 @@ impl Tank {
             grid_cells: [2 * margin + columns, 2 * margin + rows],
             damping: 0.0,
         };
-        let material = LinearElastic {
-            density: block.density,
-            young_modulus,
-            poisson_ratio: 0.3,
-        };
+        let material = LinearElastic { density: block.density, young_modulus, poisson_ratio: 0.3 };
         let body = BodySeed {
             name: "block".into(),
             material: material.into(),

@@ -29,10 +29,7 @@ pub fn execute(arguments: &CaseArguments) -> Result<(), Failure> {
     }
     let mut simulation = simulation::assemble(&case)?;
     let counts = simulation.counts();
-    println!(
-        "particles   {} fluid, {} wall, {} solid",
-        counts.fluid, counts.wall, counts.material
-    );
+    println!("particles   {} fluid, {} wall, {} solid", counts.fluid, counts.wall, counts.material);
     let estimate = case.estimate();
     println!("memory      {:.1} MB", estimate.memory as f64 / 1e6);
     print_time_steps(estimate);

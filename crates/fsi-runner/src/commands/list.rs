@@ -21,7 +21,7 @@ pub fn execute(cases: &Path) -> Result<(), Failure> {
     }
     let width = names.iter().map(String::len).max().unwrap_or(0);
     for name in names {
-        match Case::load(&cases.join(&name).join("case.ron"), &[]) {
+        match Case::load(cases.join(&name).join("case.ron"), &[]) {
             Ok(case) => println!("{name:width$}  {}D  {}", case.dimension(), case.description()),
             Err(error) => println!("{name:width$}  cannot be read: {error}"),
         }

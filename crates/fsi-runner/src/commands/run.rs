@@ -40,11 +40,7 @@ pub fn execute(arguments: &RunArguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// See [`execute`].
-pub fn run_case(
-    case: &Case,
-    folder: RunFolder,
-    arguments: &RunArguments,
-) -> Result<(), Failure> {
+pub fn run_case(case: &Case, folder: RunFolder, arguments: &RunArguments) -> Result<(), Failure> {
     let overrides = &arguments.case.overrides;
     let end_time = arguments.until.unwrap_or_else(|| case.end_time());
     if !(end_time.is_finite() && end_time > 0.0) {
@@ -87,8 +83,7 @@ pub fn run_case(
     let mut recorder = Recorder::open(settings, simulation.as_ref())?;
     let schedule = Schedule { end_time, output: case.output() };
     let (begun, first_step) = (Instant::now(), simulation.steps());
-    let ending =
-        run(simulation.as_mut(), &schedule, &mut recorder, &mut recorded, &interrupted)?;
+    let ending = run(simulation.as_mut(), &schedule, &mut recorder, &mut recorded, &interrupted)?;
     let cost = Cost {
         steps: simulation.steps() - first_step,
         elapsed: begun.elapsed(),
@@ -123,9 +118,6 @@ fn rerun_target(arguments: &RunArguments, folder: &RunFolder, step: u64) -> Opti
 fn print_opening(case: &Case, simulation: &dyn simulation::Simulation, folder: &RunFolder) {
     let counts = simulation.counts();
     println!("case        {}: {}", case.name(), case.description());
-    println!(
-        "particles   {} fluid, {} wall, {} solid",
-        counts.fluid, counts.wall, counts.material
-    );
+    println!("particles   {} fluid, {} wall, {} solid", counts.fluid, counts.wall, counts.material);
     println!("output      {}", folder.path.display());
 }

@@ -96,7 +96,11 @@ impl Prepared {
         Ok(Self { directory: directory.to_owned(), case, checks })
     }
 
-    fn verify(&self, arguments: &VerifyArguments, variant: Variant) -> Result<ResultTable, Failure> {
+    fn verify(
+        &self,
+        arguments: &VerifyArguments,
+        variant: Variant,
+    ) -> Result<ResultTable, Failure> {
         let name = self.case.name();
         let suffix = if variant == Variant::Quick { "-quick" } else { "" };
         let folder = RunFolder::new(arguments.out.join(format!("{name}{suffix}")), name);
@@ -150,10 +154,6 @@ impl PointSource for LastFrame {
             .zip(displacement.as_chunks::<3>().0)
             .map(|(x, u)| std::array::from_fn(|axis| x[axis] - u[axis]))
             .collect();
-        Ok(FinalPoints {
-            position,
-            reference_position,
-            stress: stress.as_chunks::<6>().0.to_vec(),
-        })
+        Ok(FinalPoints { position, reference_position, stress: stress.as_chunks::<6>().0.to_vec() })
     }
 }

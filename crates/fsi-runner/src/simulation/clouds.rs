@@ -99,7 +99,8 @@ fn walls<const D: usize>(
 pub fn bodies<const D: usize>(solid: &Solid<D>) -> Vec<PointCloud> {
     let points = solid.points();
     let body = |(number, body): (usize, &gimpm::Body)| {
-        let order = order_by_identity(&points.id, |index| usize::from(points.body[index]) == number);
+        let order =
+            order_by_identity(&points.id, |index| usize::from(points.body[index]) == number);
         let displacement =
             |&index: &usize| in_space(&(points.position[index] - points.reference_position[index]));
         PointCloud {

@@ -99,11 +99,10 @@ fn place_of_identity(ids: &[u32]) -> Vec<usize> {
 }
 
 fn columns<const D: usize>(gauge: &Gauge<D>) -> Vec<Column> {
-    let column =
-        |quantity: &str, unit: &str| Column {
-            name: format!("{}.{quantity}", gauge.name),
-            unit: unit.into(),
-        };
+    let column = |quantity: &str, unit: &str| Column {
+        name: format!("{}.{quantity}", gauge.name),
+        unit: unit.into(),
+    };
     let axes = &AXES[..D];
     // In 2D forces and moments are those of one metre of width.
     let (force, moment) = if D == 2 { ("N/m", "N") } else { ("N", "N m") };
@@ -144,8 +143,7 @@ fn read<const D: usize, F, S>(
             row.push(fluid.map_or(0.0, |fluid| fluid.sample(position).pressure));
         }
         GaugeKind::Velocity { position } => {
-            let velocity =
-                fluid.map_or(SVector::zeros(), |fluid| fluid.sample(position).velocity);
+            let velocity = fluid.map_or(SVector::zeros(), |fluid| fluid.sample(position).velocity);
             row.extend(velocity.iter());
         }
         GaugeKind::WaterLevel { base, top } => {
