@@ -139,7 +139,9 @@ impl RerunLog {
         let target = self.target.to_string();
         tracing::warn!(target, reason, "Rerun takes no more data; the run goes on without it");
         self.alive = false;
-        self.recording.disconnect();
+        // Disconnecting or dropping the stream would wait for the viewer, for ever.
+        let stuck = std::mem::replace(&mut self.recording, RecordingStream::disabled());
+        std::mem::forget(stuck);
     }
 }
 
