@@ -24,7 +24,8 @@ impl Plot {
 /// Groups the columns of a table, in order of first appearance.
 ///
 /// `P1.pressure` and `P2.pressure` share the plot `pressure`; `crest.x` and
-/// `crest.y` share `crest`; `energy.a` and `energy.b` of the ledger share `energy`.
+/// `crest.y` share `crest`; `base.force_x` and `base.force_y` share `base force`;
+/// `energy.a` and `energy.b` of the ledger share `energy`.
 pub fn group(table: Table, columns: &[Column]) -> Vec<Plot> {
     let mut plots: Vec<Plot> = Vec::new();
     for (i, column) in columns.iter().enumerate() {
@@ -44,8 +45,12 @@ fn subject(table: Table, name: &str) -> String {
     let Some((owner, quantity)) = name.rsplit_once('.') else {
         return name.into();
     };
-    let component = ["x", "y", "z", "xx", "yy", "zz", "xy", "yz", "xz"].contains(&quantity);
-    if component || table == Table::Ledger { owner.into() } else { quantity.into() }
+    let component = |word| ["x", "y", "z", "xx", "yy", "zz", "xy", "yz", "xz"].contains(&word);
+    match quantity.rsplit_once('_') {
+        _ if component(quantity) || table == Table::Ledger => owner.into(),
+        Some((vector, last)) if component(last) => format!("{owner} {vector}"),
+        _ => quantity.into(),
+    }
 }
 
 #[cfg(test)]
@@ -56,7 +61,7 @@ mod tests {
     fn quantities_are_grouped_and_units_never_mix() {
         let names =
             [("P1.pressure", "Pa"), ("crest.x", "m"), ("P2.pressure", "Pa"), ("crest.z", "m")];
-        let forces = [("base.force.x", "N"), ("base.moment.y", "N m"), ("front", "m")];
+        let forces = [("base.force_x", "N"), ("base.moment_y", "N m"), ("front", "m")];
         let columns: Vec<_> = names
             .into_iter()
             .chain(forces)
@@ -69,8 +74,8 @@ mod tests {
         let expected = [
             ("pressure [Pa]", vec![0, 2]),
             ("crest [m]", vec![1, 3]),
-            ("base.force [N]", vec![4]),
-            ("base.moment [N m]", vec![5]),
+            ("base force [N]", vec![4]),
+            ("base moment [N m]", vec![5]),
             ("front [m]", vec![6]),
         ];
         assert_eq!(titles, expected.map(|(title, columns)| (title.to_string(), columns)));
