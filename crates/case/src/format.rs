@@ -88,10 +88,10 @@ pub struct CouplingForm {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Correctors")]
 pub enum CorrectorsForm {
-    /// One; two when the structure is light against the water (μ < 3).
+    /// One; three when the structure is light against the water (μ < 3).
     #[default]
     Auto,
-    /// This many, 0 to 5.
+    /// This many, 0 to 3.
     Fixed(u32),
 }
 

@@ -18,7 +18,7 @@ fn ten_thousand_steps() {
     // The block starts half immersed where the water leaves room for it.
     let block = Block { lower: vector![0.2, 0.2], upper: vector![0.3, 0.3], density: 500.0 };
     let fluid = tank.fluid(Some(&block));
-    let solid = tank.free_solid(&block, 1.0e7);
+    let solid = tank.solid(&block, 1.0e7, Vec::new());
     let parameters = CouplingParameters {
         mass_ratio: 2.0,
         correction_tolerance: 1e-3 * tank.sound_speed(),

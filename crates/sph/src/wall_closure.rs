@@ -95,3 +95,43 @@ impl<const D: usize, K: Kernel<D>> WallClosure<D, K> {
         WallForce { force: area * sum, area, impact, offset: sum - impact - 2.0 * a.pressure }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WendlandC2;
+
+    fn push(pressure: f64, tension: f64) -> f64 {
+        let zero = SVector::zeros();
+        let closure = WallClosure::<2, WendlandC2<2>> {
+            kernel: WendlandC2::new(0.15),
+            gravity: zero,
+            sound_speed: 20.0,
+        };
+        let a = FluidSide {
+            position: SVector::from([0.1, 0.0]),
+            velocity: zero,
+            volume: 0.01,
+            density: 1000.0,
+            pressure,
+            tension,
+        };
+        let p = WallSide { position: zero, velocity: zero, volume: 0.01 };
+        closure.force(&a, &p, 0.1).force[0]
+    }
+
+    #[test]
+    fn pressure_pushes_and_only_submerged_water_is_pulled() {
+        let under_pressure = push(500.0, 0.0);
+        assert!(under_pressure > 0.0);
+        assert_eq!(push(500.0, 1.0), under_pressure);
+        assert_eq!(push(-500.0, 0.0), 0.0);
+        assert_eq!(push(-500.0, 1.0), -under_pressure);
+    }
+
+    #[test]
+    fn tension_is_continuous_in_the_filling() {
+        assert_eq!([0.5, 0.8, 0.95, 1.02].map(tension_share), [0.0, 0.0, 1.0, 1.0]);
+        assert!((tension_share(0.875) - 0.5).abs() < 1e-12);
+    }
+}

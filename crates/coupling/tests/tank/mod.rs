@@ -75,12 +75,7 @@ impl Tank {
         Fluid::new(parameters, particles, walls).unwrap()
     }
 
-    /// `block` with Young's modulus `young_modulus` (Pa), free to move.
-    pub fn free_solid(&self, block: &Block, young_modulus: f64) -> Solid<2> {
-        self.solid(block, young_modulus, Vec::new())
-    }
-
-    /// `block`, held by `constraints`. Points at the fluid's spacing, cells of two.
+    /// `block` with Young's modulus `young_modulus` (Pa), held by `constraints`. Points at the fluid's spacing, cells of two.
     pub fn solid(
         &self,
         block: &Block,
