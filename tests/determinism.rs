@@ -31,22 +31,25 @@ fn run(case: &[&str], folder: &Path, more: &[&str]) {
     run_well(&arguments);
 }
 
+/// Runs `case` to `until` with one and with two threads and compares their `file`s.
+fn assert_threads_agree(case: &[&str], until: &str, file: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let files = ["1", "2"].map(|threads| {
+        let out = folder.path().join(threads);
+        run(case, &out, &["--until", until, "--threads", threads]);
+        out.join(file)
+    });
+    assert_same_bits(&files[0], &files[1]);
+}
+
 #[test]
 fn one_and_two_threads_give_the_same_bits_in_2d() {
-    let folder = tempfile::tempdir().unwrap();
-    let (one, two) = (folder.path().join("one"), folder.path().join("two"));
-    run(&GATE, &one, &["--until", "0.01", "--threads", "1"]);
-    run(&GATE, &two, &["--until", "0.01", "--threads", "2"]);
-    assert_same_bits(&one.join("elastic_gate.h5"), &two.join("elastic_gate.h5"));
+    assert_threads_agree(&GATE, "0.01", "elastic_gate.h5");
 }
 
 #[test]
 fn one_and_two_threads_give_the_same_bits_in_3d() {
-    let folder = tempfile::tempdir().unwrap();
-    let (one, two) = (folder.path().join("one"), folder.path().join("two"));
-    run(&WALL, &one, &["--until", "0.03", "--threads", "1"]);
-    run(&WALL, &two, &["--until", "0.03", "--threads", "2"]);
-    assert_same_bits(&one.join("tsunami_wall.h5"), &two.join("tsunami_wall.h5"));
+    assert_threads_agree(&WALL, "0.03", "tsunami_wall.h5");
 }
 
 #[test]

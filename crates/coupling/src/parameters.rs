@@ -19,11 +19,6 @@ pub struct CouplingParameters {
     /// μ = ρ_s t / (ρ dx) with the wall thickness t; decides
     /// [`Correctors::Automatic`]. Infinite when nothing is coupled.
     pub mass_ratio: f64,
-    /// A corrector is skipped when no loaded point's velocity changes by more
-    /// than this (m/s). 0 by default: 1e-3 c0, small for the fluid, is a
-    /// pressure of 1e-3 ρ c0², and a concrete wall whose corrector is skipped
-    /// for it is rung up by the lag of one step.
-    pub correction_tolerance: f64,
     /// Upper limit of the solid's sub-steps in one fluid step.
     pub largest_substep_count: u32,
 }
@@ -33,7 +28,6 @@ impl Default for CouplingParameters {
         Self {
             correctors: Correctors::Automatic,
             mass_ratio: f64::INFINITY,
-            correction_tolerance: 0.0,
             largest_substep_count: 1000,
         }
     }
@@ -63,13 +57,6 @@ impl CouplingParameters {
         }
         if self.mass_ratio.is_nan() || self.mass_ratio <= 0.0 {
             return bad("mass_ratio", self.mass_ratio, "above 0");
-        }
-        if !(self.correction_tolerance >= 0.0 && self.correction_tolerance.is_finite()) {
-            return bad(
-                "correction_tolerance",
-                self.correction_tolerance,
-                "finite and not negative",
-            );
         }
         if self.largest_substep_count == 0 {
             return bad("largest_substep_count", 0.0, "at least 1");

@@ -26,7 +26,7 @@ impl<const D: usize, F: FluidSide<D>, S: SolidSide<D>> Coupled<D, F, S> {
 
         // 5  correctors: the load again with the velocity that the wall really had
         for _ in 0..correctors {
-            if self.velocity_change() <= self.parameters.correction_tolerance {
+            if !self.velocity_changed() {
                 break;
             }
             self.fluid.correct(dt, &self.assumed_velocity, &self.mean_velocity, &mut self.load)?;

@@ -19,11 +19,7 @@ fn ten_thousand_steps() {
     let block = Block { lower: vector![0.2, 0.2], upper: vector![0.3, 0.3], density: 500.0 };
     let fluid = tank.fluid(Some(&block));
     let solid = tank.solid(&block, 1.0e7, Vec::new());
-    let parameters = CouplingParameters {
-        mass_ratio: 2.0,
-        correction_tolerance: 1e-3 * tank.sound_speed(),
-        ..CouplingParameters::default()
-    };
+    let parameters = CouplingParameters { mass_ratio: 2.0, ..CouplingParameters::default() };
     let mut coupled = Coupled::new(fluid, solid, parameters).unwrap();
     let mut touched = 0;
     for step in 0..10_000 {

@@ -62,11 +62,7 @@ pub fn summary(
     let rate = cost.steps as f64 * particles as f64 / seconds * 1e-6;
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "particles   {} fluid, {} wall, {} solid",
-        counts.fluid, counts.wall, counts.material
-    );
+    let _ = writeln!(text, "particles   {counts}");
     let _ = writeln!(
         text,
         "steps       {} to t = {:.6} s, {} solid sub-steps in the last",

@@ -20,16 +20,11 @@ pub fn execute(arguments: &CaseArguments) -> Result<(), Failure> {
     let case = Case::load(&path, &arguments.overrides)?;
     println!("case        {}: {}", case.name(), case.description());
     println!("file        {}", path.display());
-    let notes = match case.dimension() {
-        2 => case.build::<2>()?.notes,
-        _ => case.build::<3>()?.notes,
-    };
+    let (mut simulation, notes) = simulation::assemble_with_notes(&case)?;
     for note in notes {
         println!("            {note}");
     }
-    let mut simulation = simulation::assemble(&case)?;
-    let counts = simulation.counts();
-    println!("particles   {} fluid, {} wall, {} solid", counts.fluid, counts.wall, counts.material);
+    println!("particles   {}", simulation.counts());
     let estimate = case.estimate();
     println!("memory      {:.1} MB", estimate.memory as f64 / 1e6);
     print_time_steps(estimate);

@@ -116,8 +116,7 @@ fn rerun_target(arguments: &RunArguments, folder: &RunFolder, step: u64) -> Opti
 }
 
 fn print_opening(case: &Case, simulation: &dyn simulation::Simulation, folder: &RunFolder) {
-    let counts = simulation.counts();
     println!("case        {}: {}", case.name(), case.description());
-    println!("particles   {} fluid, {} wall, {} solid", counts.fluid, counts.wall, counts.material);
+    println!("particles   {}", simulation.counts());
     println!("output      {}", folder.path.display());
 }

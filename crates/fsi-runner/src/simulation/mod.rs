@@ -32,6 +32,12 @@ pub struct Counts {
     pub material: usize,
 }
 
+impl std::fmt::Display for Counts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} fluid, {} wall, {} solid", self.fluid, self.wall, self.material)
+    }
+}
+
 /// What the run loop needs of a built case.
 pub trait Simulation: Send {
     /// Numbers of particles and points now.
@@ -97,9 +103,23 @@ pub trait Simulation: Send {
 /// # Errors
 /// The case cannot be seeded, or a solver refuses its input.
 pub fn assemble(case: &Case) -> Result<Box<dyn Simulation>, Failure> {
+    assemble_with_notes(case).map(|(simulation, _)| simulation)
+}
+
+/// The same, with what was built: one line a block, wall and body.
+///
+/// # Errors
+/// See [`assemble`].
+pub fn assemble_with_notes(case: &Case) -> Result<(Box<dyn Simulation>, Vec<String>), Failure> {
+    fn join<const D: usize>(
+        mut model: Model<D>,
+    ) -> Result<(Box<dyn Simulation>, Vec<String>), Failure> {
+        let notes = std::mem::take(&mut model.notes);
+        Ok((assemble_dimension(model)?, notes))
+    }
     match case.dimension() {
-        2 => assemble_dimension(case.build::<2>()?),
-        _ => assemble_dimension(case.build::<3>()?),
+        2 => join(case.build::<2>()?),
+        _ => join(case.build::<3>()?),
     }
 }
 
