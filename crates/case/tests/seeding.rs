@@ -73,7 +73,8 @@ fn the_block_has_its_mass_and_holds_its_end_planes() {
         assert!(parameters.grid_origin[axis] <= -0.3 + 1e-9 && upper >= 1.3 - 1e-9);
     }
     // The end displacement is a thousandth of the grid spacing.
-    let press = solid.constraints[1].components[2].as_ref().unwrap();
+    let gimpm::Hold::Components(components) = &solid.constraints[1].hold else { panic!() };
+    let press = components[2].as_ref().unwrap();
     assert!((press.displacement(8.049845e-3) + 1e-4).abs() < 1e-9);
 }
 

@@ -6,7 +6,10 @@
 
 use std::time::Instant;
 
-use gimpm::{BodySeed, InitialVelocity, LinearElastic, Shape, Solid, SolidParameters};
+use gimpm::{
+    BodySeed, Discretisation, InitialVelocity, LinearElastic, Loops, Solid, SolidParameters,
+    StressUpdate,
+};
 use nalgebra::SVector;
 
 fn block() -> Result<Solid<3>, gimpm::SolidError> {
@@ -26,10 +29,13 @@ fn block() -> Result<Solid<3>, gimpm::SolidError> {
         points,
         velocity: InitialVelocity::Uniform(SVector::from([1.0, 2.0, 3.0])),
         point_spacing: 0.05,
+        discretisation: Discretisation::default(),
     };
     let parameters = SolidParameters {
         gravity: SVector::zeros(),
-        shape: Shape::Ugimp,
+        gravity_ramp: 0.0,
+        stress_update: StressUpdate::ModifiedLast,
+        loops: Loops::Fast,
         courant_number: 0.5,
         grid_spacing: 0.1,
         grid_origin: SVector::repeat(-0.2),

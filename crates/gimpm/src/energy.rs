@@ -70,9 +70,12 @@ impl<const D: usize> Solid<D> {
             ledger.boundary_impulse += reaction.force * dt;
             accumulate(&mut ledger.boundary_angular_impulse, &reaction.moment, dt);
         }
-        ledger.gravity_impulse += self.parameters.gravity * (self.total_mass * dt);
-        if self.grid.has_external_force {
-            let grid = &self.grid;
+        let gravity = self.parameters.gravity_at(state.time + 0.5 * dt);
+        ledger.gravity_impulse += gravity * (self.total_mass * dt);
+        for grid in self.fields.iter().map(|field| &field.grid) {
+            if !grid.has_external_force {
+                continue;
+            }
             let total = ordered_reduction::sum(grid.nodes.len(), |v| {
                 let force = &grid.external_force[v];
                 if force.iter().all(|f| *f == 0.0) {

@@ -2,8 +2,9 @@
 
 use nalgebra::SVector;
 
-use crate::shape::with_shape;
+use crate::grid::Grid;
 use crate::solid::Solid;
+use crate::stencil::PointStencil;
 
 impl<const D: usize> Solid<D> {
     /// `f_v^ext += Σ_p S_vp f_p` (G22; C5) with the current weights, for the next
@@ -15,42 +16,42 @@ impl<const D: usize> Solid<D> {
         if self.failure.is_some() {
             return;
         }
-        let grid = &mut self.grid;
-        let geometry = &grid.geometry;
         let points = &self.state.points;
-        grid.has_external_force = true;
         for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
-            with_shape!(body, shape => {
-                geometry.scatter_by_slab(offsets, &mut grid.external_force, |range, first, nodes| {
-                    for p in range {
-                        let Some(load) = force.get(p) else { break };
-                        let stencil = geometry.stencil(shape, &points.position[p]);
-                        let [sx, sy, sz] = &stencil.value;
-                        for c in 0..stencil.count[2] {
-                            for b in 0..stencil.count[1] {
-                                let start = stencil.first - first
-                                    + b * geometry.stride[1]
-                                    + c * geometry.stride[2];
-                                for (node, weight) in nodes[start..start + 3].iter_mut().zip(sx) {
-                                    *node += load * (weight * (sy[b] * sz[c]));
-                                }
-                            }
-                        }
+            let frame = body.discretisation.frame;
+            let Grid { geometry, external_force, has_external_force, .. } =
+                &mut self.fields[body.field].grid;
+            *has_external_force = true;
+            geometry.scatter_by_slab(offsets, external_force, |range, first, nodes| {
+                let mut stencil = PointStencil::default();
+                for p in range {
+                    let Some(load) = force.get(p) else { break };
+                    stencil.evaluate(body, geometry, points.site(frame, p));
+                    for entry in stencil.entries() {
+                        nodes[entry.node as usize - first] += load * entry.value;
                     }
-                });
+                }
             });
         }
     }
 
-    /// External force on each stored node (N) waiting for the next step.
+    /// Forgets the external force of all fields.
+    pub(crate) fn clear_external_force(&mut self) {
+        self.fields.iter_mut().for_each(|field| field.grid.clear_external_force());
+    }
+
+    /// External force (N) waiting on all nodes for the next step.
     pub fn external_force_total(&self) -> SVector<f64, D> {
-        let forces = &self.grid.external_force;
-        if !self.grid.has_external_force {
-            return SVector::zeros();
+        let mut sum = SVector::zeros();
+        for grid in self.fields.iter().map(|field| &field.grid) {
+            if grid.has_external_force {
+                let forces = &grid.external_force;
+                let total = ordered_reduction::sum(forces.len(), |v| {
+                    std::array::from_fn::<f64, 3, _>(|d| if d < D { forces[v][d] } else { 0.0 })
+                });
+                sum += SVector::from_fn(|d, _| total[d]);
+            }
         }
-        let total = ordered_reduction::sum(forces.len(), |v| {
-            std::array::from_fn::<f64, 3, _>(|d| if d < D { forces[v][d] } else { 0.0 })
-        });
-        SVector::from_fn(|d, _| total[d])
+        sum
     }
 }

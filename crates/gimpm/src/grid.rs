@@ -78,6 +78,11 @@ impl<const D: usize> GridGeometry<D> {
         self.cells.iter().product()
     }
 
+    /// Upper corner of the box of points (m).
+    pub fn upper(&self) -> SVector<f64, D> {
+        SVector::from_fn(|d, _| self.origin[d] + self.cells[d] as f64 * self.spacing)
+    }
+
     /// Nodes in one plane across the slowest axis.
     pub fn plane(&self) -> usize {
         self.stride[D - 1]

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 use rayon::prelude::*;
 
+use crate::field::Field;
 use crate::grid::{ACCELERATION, VELOCITY};
 use crate::solid::Solid;
 
@@ -40,15 +41,44 @@ impl<const D: usize> Solid<D> {
     /// with `v_v = (mv)_v/m_v`; local damping (G25) if asked for. Records change
     /// from mass, momentum, force to mass, velocity, acceleration in place.
     pub(crate) fn update_grid_momentum(&mut self, dt: f64) {
-        let (gravity, damping) = (self.parameters.gravity, self.parameters.damping);
-        let mass_cut = self.mass_cut;
-        let grid = &mut self.grid;
+        let gravity = self.parameters.gravity_at(self.state.time + 0.5 * dt);
+        let forces =
+            NodeForces { gravity, damping: self.parameters.damping, mass_cut: self.mass_cut };
+        self.small_mass = SmallMassReport::default();
+        for field in &mut self.fields {
+            forces.accelerate(field, dt);
+            let ledger = &mut self.state.ledger;
+            for tally in &field.tallies {
+                self.small_mass.nodes += tally.cut_nodes;
+                self.small_mass.mass += tally.cut_mass;
+                for d in 0..D {
+                    ledger.damping_impulse[d] += dt * tally.damping_force[d];
+                }
+                ledger.damping_work += dt * tally.damping_power;
+            }
+        }
+    }
+
+    /// Nodes left out in the last step.
+    pub fn small_mass_nodes(&self) -> SmallMassReport {
+        self.small_mass
+    }
+}
+
+/// What acts on nodes beside internal and external forces.
+struct NodeForces<const D: usize> {
+    gravity: SVector<f64, D>,
+    damping: f64,
+    mass_cut: f64,
+}
+
+impl<const D: usize> NodeForces<D> {
+    fn accelerate(&self, field: &mut Field<D>, dt: f64) {
+        let Self { gravity, damping, mass_cut } = *self;
+        let Field { grid, tallies, .. } = field;
         let external = grid.has_external_force.then_some(&grid.external_force);
-        grid.nodes
-            .par_chunks_mut(NODES_PER_TASK)
-            .zip(self.node_tallies.par_iter_mut())
-            .enumerate()
-            .for_each(|(task, (records, tally))| {
+        grid.nodes.par_chunks_mut(NODES_PER_TASK).zip(tallies.par_iter_mut()).enumerate().for_each(
+            |(task, (records, tally))| {
                 *tally = NodeTally::default();
                 for (k, record) in records.iter_mut().enumerate() {
                     let mass = record[0];
@@ -74,27 +104,8 @@ impl<const D: usize> Solid<D> {
                         record[ACCELERATION + d] = acceleration;
                     }
                 }
-            });
-        self.collect_tallies(dt);
-    }
-
-    /// Adds the tasks' tallies in order.
-    fn collect_tallies(&mut self, dt: f64) {
-        self.small_mass = SmallMassReport::default();
-        let ledger = &mut self.state.ledger;
-        for tally in &self.node_tallies {
-            self.small_mass.nodes += tally.cut_nodes;
-            self.small_mass.mass += tally.cut_mass;
-            for d in 0..D {
-                ledger.damping_impulse[d] += dt * tally.damping_force[d];
-            }
-            ledger.damping_work += dt * tally.damping_power;
-        }
-    }
-
-    /// Nodes left out in the last step.
-    pub fn small_mass_nodes(&self) -> SmallMassReport {
-        self.small_mass
+            },
+        );
     }
 }
 

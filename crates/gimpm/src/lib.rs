@@ -14,14 +14,16 @@
 //! A bar of four cells, clamped at its left end, is pulled at the other:
 //!
 //! ```
-//! use gimpm::{BodySeed, InitialVelocity, LinearElastic, NodeConstraint, Shape, Solid,
-//!     SolidParameters};
+//! use gimpm::{BodySeed, Discretisation, Hold, InitialVelocity, LinearElastic, Loops,
+//!     NodeConstraint, Solid, SolidParameters, StressUpdate};
 //! use motion::Motion;
 //! use nalgebra::SVector;
 //!
 //! let parameters = SolidParameters {
 //!     gravity: SVector::from([0.0, 0.0]),
-//!     shape: Shape::Ugimp,
+//!     gravity_ramp: 0.0,
+//!     stress_update: StressUpdate::ModifiedLast,
+//!     loops: Loops::Fast,
 //!     courant_number: 0.5,
 //!     grid_spacing: 0.25,
 //!     grid_origin: SVector::from([-0.25, -0.25]),
@@ -36,19 +38,22 @@
 //!         .collect(),
 //!     velocity: InitialVelocity::Uniform(SVector::from([0.0, 0.0])),
 //!     point_spacing: 0.125,
+//!     discretisation: Discretisation::default(),
 //! };
 //! let inf = f64::INFINITY;
 //! let clamp = NodeConstraint {
 //!     name: "clamp".into(),
+//!     body: 0,
 //!     lower: SVector::from([-inf, -inf]),
 //!     upper: SVector::from([0.0, inf]),
-//!     components: [Some(Motion::Fixed), Some(Motion::Fixed)],
+//!     hold: Hold::Components([Some(Motion::Fixed), Some(Motion::Fixed)]),
 //! };
 //! let pull = NodeConstraint {
 //!     name: "pull".into(),
+//!     body: 0,
 //!     lower: SVector::from([1.0, -inf]),
 //!     upper: SVector::from([inf, inf]),
-//!     components: [Some(Motion::SmoothStart { velocity: 0.01, duration: 0.5 }), None],
+//!     hold: Hold::Components([Some(Motion::SmoothStart { velocity: 0.01, duration: 0.5 }), None]),
 //! };
 //! let mut solid = Solid::new(parameters, vec![bar], vec![clamp, pull])?;
 //! while solid.time() < 1.0 {
@@ -65,30 +70,40 @@ mod constraints;
 mod energy;
 mod error;
 mod external_force;
+mod field;
 mod grid;
 mod grid_momentum;
 mod grid_to_points;
+mod kernel;
 mod layout_check;
 mod material;
 mod objective;
 mod parameters;
+mod plain;
 mod points;
 mod points_to_grid;
 mod reaction;
 mod remap;
+mod separable;
 mod shape;
 mod solid;
 mod sort;
 mod state;
+mod stencil;
 mod step;
+mod stress_order;
 mod stress_update;
 mod time_step;
 
+pub use constraints::SupportNode;
 pub use energy::{SolidEnergy, SolidLedger};
 pub use error::SolidError;
 pub use grid_momentum::SmallMassReport;
 pub use material::{LinearElastic, Material, MaterialError, MaterialModel};
-pub use parameters::{BodySeed, InitialVelocity, NodeConstraint, Shape, SolidParameters};
+pub use parameters::{
+    BodySeed, Discretisation, Frame, Hold, InitialVelocity, Loops, NodeConstraint, Shape,
+    SolidParameters, StressUpdate, Transfer,
+};
 pub use points::Points;
 pub use reaction::Reaction;
 pub use shape::{AxisWeights, Linear, ShapeFunction, Ugimp};

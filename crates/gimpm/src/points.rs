@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix3, SVector};
 
+use crate::parameters::Frame;
+
 /// Material points in storage order: body by body, within a body by grid cell.
 ///
 /// The order changes only in `sort_points`; `id` says which point is where.
@@ -56,6 +58,15 @@ impl<const D: usize> Points<D> {
     /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.id.is_empty()
+    }
+
+    /// Where the weights of a point are taken (m): x, or X in the total frame.
+    #[inline(always)]
+    pub(crate) fn site(&self, frame: Frame, p: usize) -> &SVector<f64, D> {
+        match frame {
+            Frame::Updated => &self.position[p],
+            Frame::Total => &self.reference_position[p],
+        }
     }
 
     /// Displacement (m) at a material position X (m) near point `point`, taken as

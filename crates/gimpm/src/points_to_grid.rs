@@ -1,89 +1,27 @@
 //! Equations (1) and (2): points give mass, momentum and internal force to nodes.
 
-use nalgebra::SVector;
 use rayon::prelude::*;
 
-use crate::grid::{NodeRecord, Stencil};
 use crate::grid_momentum::NODES_PER_TASK;
-use crate::shape::with_shape;
+use crate::kernel::Kernel;
 use crate::solid::Solid;
+use crate::{plain, separable};
 
 impl<const D: usize> Solid<D> {
     /// `m_v = Σ_p m_p S_vp`, `(mv)_v = Σ_p m_p v_p S_vp` (G5) and
-    /// `f_v^int = -Σ_p V_p σ_p · ∇S_vp` (G6), in one sweep over the points.
+    /// `f_v^int = -Σ_p V_p σ_p · ∇S_vp` (G6), in the total frame
+    /// `f_v^int = -Σ_p V0_p P_p · ∇S_vp` (G6b).
     pub(crate) fn points_to_grid(&mut self) {
-        let grid = &mut self.grid;
-        let geometry = &grid.geometry;
-        let points = &self.state.points;
-        grid.nodes.par_chunks_mut(NODES_PER_TASK).for_each(|records| records.fill([0.0; 8]));
-        for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
-            with_shape!(body, shape => {
-                geometry.scatter_by_slab(offsets, &mut grid.nodes, |range, first, nodes| {
-                    for p in range {
-                        let stencil = geometry.stencil(shape, &points.position[p]);
-                        let moved = moved_record(points.mass[p], &points.velocity[p]);
-                        let factor = -points.volume[p] * geometry.inverse_spacing;
-                        let force = force_records(factor, &points.stress[p]);
-                        let local = &mut nodes[stencil.first - first..];
-                        add(local, &stencil, geometry.stride, &moved, &force);
-                    }
-                });
-            });
+        for field in &mut self.fields {
+            let nodes = &mut field.grid.nodes;
+            nodes.par_chunks_mut(NODES_PER_TASK).for_each(|records| records.fill([0.0; 8]));
         }
-    }
-}
-
-/// Mass and momentum of a point in the layout of a node record.
-#[inline(always)]
-fn moved_record<const D: usize>(mass: f64, velocity: &SVector<f64, D>) -> NodeRecord {
-    let mut record = [0.0; 8];
-    record[0] = mass;
-    for d in 0..D {
-        record[1 + d] = mass * velocity[d];
-    }
-    record
-}
-
-/// Columns of `factor · σ` in the layout of a node record: what one unit of
-/// weight gradient along x, y and z adds to the internal force.
-#[inline(always)]
-fn force_records(factor: f64, s: &[f64; 6]) -> [NodeRecord; 3] {
-    let [xx, yy, zz, xy, yz, xz] = s.map(|component| factor * component);
-    [
-        [0.0, 0.0, 0.0, 0.0, xx, xy, xz, 0.0],
-        [0.0, 0.0, 0.0, 0.0, xy, yy, yz, 0.0],
-        [0.0, 0.0, 0.0, 0.0, xz, yz, zz, 0.0],
-    ]
-}
-
-/// Adds a point to its nodes: eight components at a time, so that a node costs
-/// two multiply-adds of a whole record. The third node along x is always written
-/// (with weight zero if absent); rows and planes without weight are skipped.
-#[inline(always)]
-fn add(
-    nodes: &mut [NodeRecord],
-    stencil: &Stencil,
-    stride: [usize; 3],
-    moved: &NodeRecord,
-    force: &[NodeRecord; 3],
-) {
-    let [sx, sy, sz] = &stencil.value;
-    let [gx, gy, gz] = &stencil.gradient;
-    for c in 0..stencil.count[2] {
-        for b in 0..stencil.count[1] {
-            let (yz, dy, dz) = (sy[b] * sz[c], gy[b] * sz[c], sy[b] * gz[c]);
-            let mut by_value = [0.0; 8];
-            let mut by_gradient = [0.0; 8];
-            for k in 0..8 {
-                by_value[k] = moved[k] * yz + force[1][k] * dy + force[2][k] * dz;
-                by_gradient[k] = force[0][k] * yz;
-            }
-            let start = b * stride[1] + c * stride[2];
-            let row = &mut nodes[start..start + 3];
-            for a in 0..3 {
-                for k in 0..8 {
-                    row[a][k] += by_value[k] * sx[a] + by_gradient[k] * gx[a];
-                }
+        let points = &self.state.points;
+        for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
+            let grid = &mut self.fields[body.field].grid;
+            match body.kernel {
+                Kernel::Plain => plain::points_to_grid(body, offsets, points, grid),
+                Kernel::Separable => separable::points_to_grid(body, offsets, points, grid),
             }
         }
     }

@@ -67,6 +67,7 @@ impl<const D: usize> Solid<D> {
         self.check_time_step(dt)?;
         let velocity = self.state.constraint_velocity.clone();
         let last = self.state.reactions.clone();
+        let supports = self.state.supports.clone();
         let (ledger, small_mass) = (self.state.ledger.clone(), self.small_mass);
         self.points_to_grid();
         self.update_grid_momentum(dt);
@@ -74,6 +75,7 @@ impl<const D: usize> Solid<D> {
         self.state.ledger = ledger;
         self.small_mass = small_mass;
         self.state.constraint_velocity = velocity;
+        self.state.supports = supports;
         Ok(std::mem::replace(&mut self.state.reactions, last))
     }
 }

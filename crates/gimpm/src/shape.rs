@@ -10,7 +10,7 @@ mod ugimp;
 pub use linear::Linear;
 pub use ugimp::Ugimp;
 
-use crate::parameters::Shape;
+use crate::parameters::{BodySeed, Frame, Shape};
 
 /// Weights of the three consecutive nodes `base`, `base + 1`, `base + 2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,11 +70,12 @@ pub(crate) enum BodyShape {
 }
 
 impl BodyShape {
-    /// `relative_half_width` is the points' half width in cells.
-    pub(crate) fn new(shape: Shape, relative_half_width: f64) -> Self {
-        match shape {
-            Shape::Linear => Self::Linear(Linear),
-            Shape::Ugimp => Self::Ugimp(Ugimp::new(relative_half_width)),
+    /// In the total frame a box lies inside one cell, where the average of a linear
+    /// function is its value in the middle: linear weights are those of any shape.
+    pub(crate) fn new<const D: usize>(seed: &BodySeed<D>, grid_spacing: f64) -> Self {
+        match (seed.discretisation.frame, seed.discretisation.shape) {
+            (Frame::Total, _) | (_, Shape::Linear) => Self::Linear(Linear),
+            (_, Shape::Ugimp) => Self::Ugimp(Ugimp::new(0.5 * seed.point_spacing / grid_spacing)),
         }
     }
 }

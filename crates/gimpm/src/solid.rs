@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use nalgebra::{Matrix3, SVector};
 
-use crate::constraints::Constraints;
+use crate::constraints::{Constraints, SupportNode};
 use crate::error::SolidError;
-use crate::grid::{Grid, GridGeometry};
-use crate::grid_momentum::{NODES_PER_TASK, NodeTally, RELATIVE_MASS_CUT, SmallMassReport};
+use crate::field::{Field, fields};
+use crate::grid_momentum::{RELATIVE_MASS_CUT, SmallMassReport};
+use crate::kernel::Kernel;
 use crate::material::MaterialModel;
-use crate::parameters::{BodySeed, NodeConstraint, SolidParameters};
+use crate::parameters::{BodySeed, Discretisation, NodeConstraint, SolidParameters};
 use crate::points::Points;
 use crate::reaction::Reaction;
 use crate::shape::BodyShape;
@@ -25,18 +26,23 @@ pub struct Body {
     pub material: MaterialModel,
     /// Edge of a point's box in the reference state (m).
     pub point_spacing: f64,
+    /// Frame, weights and transfer.
+    pub discretisation: Discretisation,
+    /// Index of the velocity field.
+    pub(crate) field: usize,
     pub(crate) shape: BodyShape,
+    pub(crate) kernel: Kernel,
 }
 
-/// Bodies of material points on one background grid; see the crate's example.
+/// Bodies of material points and their grids; see the crate's example.
 ///
-/// Bodies share one velocity field: where they meet, they stick.
+/// Bodies in the updated frame share one velocity field: where they meet, they stick.
 #[derive(Debug, Clone)]
 pub struct Solid<const D: usize> {
     pub(crate) parameters: SolidParameters<D>,
     pub(crate) bodies: Vec<Body>,
     pub(crate) constraints: Constraints<D>,
-    pub(crate) grid: Grid<D>,
+    pub(crate) fields: Vec<Field<D>>,
     pub(crate) state: SolidState<D>,
     pub(crate) saved: SolidState<D>,
     /// Displacement of each point in the current step (m).
@@ -44,7 +50,6 @@ pub struct Solid<const D: usize> {
     /// Storage index of each identity.
     pub(crate) index_of: Vec<u32>,
     pub(crate) sort_buffers: SortBuffers<D>,
-    pub(crate) node_tallies: Vec<NodeTally>,
     pub(crate) previous_velocity: Vec<SVector<f64, D>>,
     pub(crate) small_mass: SmallMassReport,
     /// Nodes up to this mass are left out (kg).
@@ -71,13 +76,11 @@ impl<const D: usize> Solid<D> {
         for seed in &bodies {
             seed.validate(parameters.grid_spacing)?;
         }
-        let geometry = GridGeometry::new(
-            parameters.grid_spacing,
-            parameters.grid_origin,
-            parameters.grid_cells,
-        );
-        let constraints = Constraints::new(constraints, &geometry)?;
-        let state = initial_state(&bodies, constraints.names.len(), geometry.slab_count());
+        let (fields, field_of) = fields(&parameters, &bodies)?;
+        let constraints = Constraints::new(constraints, &fields, &field_of)?;
+        let slabs: Vec<usize> =
+            field_of.iter().map(|&field| fields[field].grid.geometry.slab_count()).collect();
+        let state = initial_state(&bodies, &constraints, &slabs);
         let count = state.points.len();
         let masses = || state.points.mass.iter().copied();
         let lightest = masses().fold(f64::INFINITY, f64::min);
@@ -88,25 +91,24 @@ impl<const D: usize> Solid<D> {
             .fold(f64::MIN_POSITIVE, f64::max);
         let bodies = bodies
             .into_iter()
-            .map(|seed| Body {
-                shape: BodyShape::new(
-                    parameters.shape,
-                    0.5 * seed.point_spacing / parameters.grid_spacing,
-                ),
+            .zip(field_of)
+            .map(|(seed, field)| Body {
+                shape: BodyShape::new(&seed, parameters.grid_spacing),
+                kernel: Kernel::choose(parameters.loops, &seed),
+                field,
                 name: seed.name,
                 material: seed.material,
                 point_spacing: seed.point_spacing,
+                discretisation: seed.discretisation,
             })
             .collect();
-        let node_tasks = geometry.node_count().div_ceil(NODES_PER_TASK);
         let mut solid = Self {
             bodies,
-            grid: Grid::new(geometry),
+            fields,
             saved: SolidState::default(),
             displacement: vec![SVector::zeros(); count],
             index_of: Vec::new(),
             sort_buffers: SortBuffers::default(),
-            node_tallies: vec![NodeTally::default(); node_tasks],
             previous_velocity: Vec::new(),
             small_mass: SmallMassReport::default(),
             mass_cut: if count == 0 { 0.0 } else { RELATIVE_MASS_CUT * lightest },
@@ -184,8 +186,8 @@ fn largest_norm<const D: usize>(vectors: &[SVector<f64, D>]) -> f64 {
 /// Points at rest in their reference state, body by body.
 fn initial_state<const D: usize>(
     bodies: &[BodySeed<D>],
-    constraints: usize,
-    slabs: usize,
+    constraints: &Constraints<D>,
+    slabs: &[usize],
 ) -> SolidState<D> {
     let mut points = Points::default();
     let mut slab_offsets = Vec::new();
@@ -205,15 +207,16 @@ fn initial_state<const D: usize>(
             points.deformation_gradient.push(Matrix3::identity());
             points.stress.push([0.0; 6]);
         }
-        let mut offsets = vec![points.len(); slabs + 1];
+        let mut offsets = vec![points.len(); slabs[index] + 1];
         offsets[0] = start;
         slab_offsets.push(offsets);
     }
     SolidState {
         points,
         slab_offsets,
-        constraint_velocity: vec![SVector::zeros(); constraints],
-        reactions: vec![Reaction::default(); constraints],
+        constraint_velocity: vec![SVector::zeros(); constraints.names.len()],
+        reactions: vec![Reaction::default(); constraints.names.len()],
+        supports: vec![SupportNode::default(); constraints.support_count()],
         ..SolidState::default()
     }
 }

@@ -1,6 +1,7 @@
 //! Sorting points by body and grid cell: a stable counting sort.
 
 use crate::grid::SLAB;
+use crate::parameters::Frame;
 use crate::points::Points;
 use crate::solid::Solid;
 
@@ -30,16 +31,20 @@ impl<const D: usize> Solid<D> {
     ///
     /// Arrays that a caller holds per point must follow `points().id` afterwards.
     pub fn sort_points(&mut self) {
-        let geometry = &self.grid.geometry;
         let buffers = &mut self.sort_buffers;
         let points = &self.state.points;
         buffers.cell.clear();
-        buffers.cell.extend(points.position.iter().map(|x| geometry.cell_of(x) as u32));
         buffers.order.clear();
         buffers.order.resize(points.len(), 0);
-        let cells_in_slab = SLAB * geometry.cell_count() / geometry.cells[D - 1];
-        for offsets in &mut self.state.slab_offsets {
+        for (body, offsets) in self.bodies.iter().zip(&mut self.state.slab_offsets) {
+            let geometry = &self.fields[body.field].grid.geometry;
+            let cells_in_slab = SLAB * geometry.cell_count() / geometry.cells[D - 1];
             let (start, end) = (offsets[0], offsets[offsets.len() - 1]);
+            let positions = match body.discretisation.frame {
+                Frame::Updated => &points.position[start..end],
+                Frame::Total => &points.reference_position[start..end],
+            };
+            buffers.cell.extend(positions.iter().map(|x| geometry.cell_of(x) as u32));
             buffers.next.clear();
             buffers.next.resize(geometry.cell_count() + 1, 0);
             for &cell in &buffers.cell[start..end] {

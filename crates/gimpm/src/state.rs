@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::constraints::SupportNode;
 use crate::energy::SolidLedger;
 use crate::error::SolidError;
 use crate::points::Points;
@@ -28,6 +29,8 @@ pub struct SolidState<const D: usize> {
     pub constraint_velocity: Vec<SVector<f64, D>>,
     /// Reaction of each constraint in the last step.
     pub reactions: Vec<Reaction<D>>,
+    /// Nodes held along a direction.
+    pub supports: Vec<SupportNode>,
     /// Sums of work and impulse since the start.
     pub ledger: SolidLedger<D>,
 }
@@ -43,6 +46,7 @@ impl<const D: usize> SolidState<D> {
         self.maximum_speed = source.maximum_speed;
         self.constraint_velocity.clone_from(&source.constraint_velocity);
         self.reactions.clone_from(&source.reactions);
+        self.supports.clone_from(&source.supports);
         self.ledger = source.ledger.clone();
     }
 }
@@ -67,7 +71,7 @@ impl<const D: usize> Solid<D> {
             self.state = replaced;
             return Err(error);
         }
-        self.grid.clear_external_force();
+        self.clear_external_force();
         self.index_points();
         self.failure = None;
         Ok(())
@@ -82,13 +86,12 @@ impl<const D: usize> Solid<D> {
     /// forgets external forces.
     pub fn restore(&mut self) {
         self.state.copy_from(&self.saved);
-        self.grid.clear_external_force();
+        self.clear_external_force();
         self.index_points();
         self.failure = None;
     }
 
     fn check_state(&self, state: &SolidState<D>) -> Result<(), SolidError> {
-        let slabs = self.grid.geometry.slab_count() + 1;
         let points = &state.points;
         let last = state.slab_offsets.last().and_then(|o| o.last()).copied().unwrap_or(0);
         let counts = [
@@ -97,6 +100,7 @@ impl<const D: usize> Solid<D> {
             ("bodies", state.slab_offsets.len(), self.bodies.len()),
             ("constraints", state.constraint_velocity.len(), self.constraints.names.len()),
             ("reactions", state.reactions.len(), self.constraints.names.len()),
+            ("supported nodes", state.supports.len(), self.constraints.support_count()),
         ];
         for (what, found, expected) in counts {
             if found != expected {
@@ -104,7 +108,8 @@ impl<const D: usize> Solid<D> {
             }
         }
         let mut end = 0;
-        for offsets in &state.slab_offsets {
+        for (offsets, expected) in state.slab_offsets.iter().zip(&self.state.slab_offsets) {
+            let slabs = expected.len();
             if offsets.len() != slabs || !offsets.is_sorted() || offsets[0] != end {
                 let (what, found) = ("ordered slab offsets", offsets.len());
                 return Err(SolidError::StateMismatch { what, found, expected: slabs });

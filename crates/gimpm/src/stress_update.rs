@@ -1,23 +1,26 @@
-//! Equations (8) and (9): strain increment, stress, deformation; then positions.
+//! Equations (8) and (9): strain increment, stress, deformation.
 
 use nalgebra::{Matrix3, SVector};
 use rayon::prelude::*;
 
 use crate::error::SolidError;
-use crate::grid::{Grid, Stencil};
+use crate::grid::Grid;
 use crate::grid_to_points::POINTS_PER_TASK;
+use crate::kernel::Kernel;
 use crate::material::{Material, MaterialModel};
 use crate::objective::{incremental_motion, rotated};
-use crate::shape::{ShapeFunction, with_shape};
+use crate::parameters::Frame;
+use crate::shape::with_shape;
 use crate::solid::{Body, Solid};
+use crate::stencil::PointStencil;
+use crate::{plain, separable};
 
-/// Mutable arrays of a run of points, and what moves them.
+/// Arrays of a run of points.
 struct Run<'a, const D: usize> {
     first: usize,
-    displacement: &'a [SVector<f64, D>],
+    site: &'a [SVector<f64, D>],
     velocity: &'a [SVector<f64, D>],
     reference_volume: &'a [f64],
-    position: &'a mut [SVector<f64, D>],
     volume: &'a mut [f64],
     deformation_gradient: &'a mut [Matrix3<f64>],
     stress: &'a mut [[f64; 6]],
@@ -32,18 +35,21 @@ enum Fault {
 impl<const D: usize> Solid<D> {
     /// `H = Δt Σ_v v_v ⊗ ∇S_vp` (G15), strain and rotation at mid-step (G16),
     /// `σ_p ← Q σ_p Qᵀ + C : Δε` (G17), `F_p ← (I + H) F_p`, `V_p = det F_p V0_p`
-    /// (G18); then `x_p += Δx_p` from (6).
+    /// (G18); in the total frame `F_p ← F_p + Δt Σ_v v_v ⊗ ∂S_vp/∂X` (G15b).
     pub(crate) fn update_stress(&mut self, dt: f64) -> Result<(), SolidError> {
-        let grid = &self.grid;
         let points = &mut self.state.points;
         let time = self.state.time + dt;
         for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
+            let grid = &self.fields[body.field].grid;
             let (start, end) = (offsets[0], offsets[offsets.len() - 1]);
+            let site = match body.discretisation.frame {
+                Frame::Updated => &points.position[start..end],
+                Frame::Total => &points.reference_position[start..end],
+            };
             let runs = (
-                self.displacement[start..end].par_chunks(POINTS_PER_TASK),
+                site.par_chunks(POINTS_PER_TASK),
                 points.velocity[start..end].par_chunks(POINTS_PER_TASK),
                 points.reference_volume[start..end].par_chunks(POINTS_PER_TASK),
-                points.position[start..end].par_chunks_mut(POINTS_PER_TASK),
                 points.volume[start..end].par_chunks_mut(POINTS_PER_TASK),
                 points.deformation_gradient[start..end].par_chunks_mut(POINTS_PER_TASK),
                 points.stress[start..end].par_chunks_mut(POINTS_PER_TASK),
@@ -51,30 +57,20 @@ impl<const D: usize> Solid<D> {
             let fault = runs
                 .into_par_iter()
                 .enumerate()
-                .map(
-                    |(
-                        k,
-                        (displacement, velocity, reference_volume, position, volume, f, stress),
-                    )| {
-                        let first = start + k * POINTS_PER_TASK;
-                        let deformation_gradient = f;
-                        update_run(
-                            grid,
-                            body,
-                            dt,
-                            Run {
-                                first,
-                                displacement,
-                                velocity,
-                                reference_volume,
-                                position,
-                                volume,
-                                deformation_gradient,
-                                stress,
-                            },
-                        )
-                    },
-                )
+                .map(|(k, (site, velocity, reference_volume, volume, f, stress))| {
+                    let first = start + k * POINTS_PER_TASK;
+                    let deformation_gradient = f;
+                    let run = Run {
+                        first,
+                        site,
+                        velocity,
+                        reference_volume,
+                        volume,
+                        deformation_gradient,
+                        stress,
+                    };
+                    update_run(grid, body, dt, run)
+                })
                 .find_map_first(|fault| fault);
             if let Some(fault) = fault {
                 return Err(match fault {
@@ -91,32 +87,49 @@ impl<const D: usize> Solid<D> {
     }
 }
 
-/// Chooses the compiled loop for the body's material and shape function.
+/// Chooses the compiled loop for the body's material and kernel.
 fn update_run<const D: usize>(
     grid: &Grid<D>,
     body: &Body,
     dt: f64,
     run: Run<'_, D>,
 ) -> Option<Fault> {
+    let geometry = &grid.geometry;
     match &body.material {
-        MaterialModel::LinearElastic(material) => {
-            with_shape!(body, shape => update_points(grid, shape, material, dt, run))
-        }
+        MaterialModel::LinearElastic(material) => match body.kernel {
+            Kernel::Plain => {
+                let mut stencil = PointStencil::default();
+                update_points(body.discretisation.frame, material, run, |site| {
+                    stencil.evaluate(body, geometry, site);
+                    plain::displacement_gradient(&stencil, grid, dt)
+                })
+            }
+            Kernel::Separable => with_shape!(body, shape => {
+                update_points(Frame::Updated, material, run, |site| {
+                    let stencil = geometry.stencil(shape, site);
+                    separable::displacement_gradient(grid, &stencil, dt * geometry.inverse_spacing)
+                })
+            }),
+        },
     }
 }
 
 fn update_points<const D: usize>(
-    grid: &Grid<D>,
-    shape: impl ShapeFunction,
+    frame: Frame,
     material: &impl Material,
-    dt: f64,
     run: Run<'_, D>,
+    mut gradient: impl FnMut(&SVector<f64, D>) -> Matrix3<f64>,
 ) -> Option<Fault> {
-    let factor = dt * grid.geometry.inverse_spacing;
-    for k in 0..run.position.len() {
-        let stencil = grid.geometry.stencil(shape, &run.position[k]);
-        let step_gradient = displacement_gradient(grid, &stencil, factor);
-        let deformation = (Matrix3::identity() + step_gradient) * run.deformation_gradient[k];
+    for k in 0..run.site.len() {
+        let before = run.deformation_gradient[k];
+        let change = gradient(&run.site[k]);
+        let (deformation, step_gradient) = match frame {
+            Frame::Updated => ((Matrix3::identity() + change) * before, change),
+            Frame::Total => match before.try_inverse() {
+                Some(inverse) => (before + change, change * inverse),
+                None => return Some(Fault::Inverted(run.first + k, before.determinant())),
+            },
+        };
         let determinant = deformation.determinant();
         let Some(motion) = incremental_motion(&step_gradient) else {
             return Some(Fault::Inverted(run.first + k, determinant));
@@ -135,36 +148,6 @@ fn update_points<const D: usize>(
         run.stress[k] = stress;
         run.deformation_gradient[k] = deformation;
         run.volume[k] = determinant * run.reference_volume[k];
-        run.position[k] += run.displacement[k];
     }
     None
-}
-
-/// `factor · Σ_v v_v ⊗ ∂S_vp` from the re-mapped velocity; the third row and
-/// column are zero in plane strain.
-#[inline(always)]
-fn displacement_gradient<const D: usize>(
-    grid: &Grid<D>,
-    stencil: &Stencil,
-    factor: f64,
-) -> Matrix3<f64> {
-    let [sx, sy, sz] = &stencil.value;
-    let [gx, gy, gz] = &stencil.gradient;
-    let stride = grid.geometry.stride;
-    let mut columns = [[0.0; 4]; 3];
-    for c in 0..stencil.count[2] {
-        for b in 0..stencil.count[1] {
-            let (yz, dy, dz) = (sy[b] * sz[c], gy[b] * sz[c], sy[b] * gz[c]);
-            let start = stencil.first + b * stride[1] + c * stride[2];
-            let row = &grid.remapped[start..start + 3];
-            for k in 0..4 {
-                let value = row[0][k] * sx[0] + row[1][k] * sx[1] + row[2][k] * sx[2];
-                let slope = row[0][k] * gx[0] + row[1][k] * gx[1] + row[2][k] * gx[2];
-                columns[0][k] += slope * yz;
-                columns[1][k] += value * dy;
-                columns[2][k] += value * dz;
-            }
-        }
-    }
-    Matrix3::from_fn(|i, j| factor * columns[j][i])
 }

@@ -4,7 +4,7 @@
 
 mod lattice;
 
-use gimpm::{BodySeed, InitialVelocity, LinearElastic, Solid};
+use gimpm::{BodySeed, Discretisation, InitialVelocity, LinearElastic, Solid};
 use lattice::{lattice, parameters, planes};
 use motion::Motion;
 use nalgebra::SVector;
@@ -47,6 +47,7 @@ fn bar<const D: usize>(speed: f64, courant_number: f64, rollers: bool) -> Solid<
         points,
         velocity: InitialVelocity::PerPoint(velocity),
         point_spacing: 0.5 * spacing,
+        discretisation: Discretisation::default(),
     };
     let origin = SVector::repeat(-spacing);
     let parameters = parameters(spacing, origin, cells, courant_number);

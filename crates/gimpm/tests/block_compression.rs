@@ -9,7 +9,7 @@
 
 mod lattice;
 
-use gimpm::{BodySeed, Material, Solid};
+use gimpm::{BodySeed, Discretisation, Material, Solid};
 use lattice::{CONCRETE, at_rest, lattice, parameters, planes};
 use motion::Motion;
 use nalgebra::SVector;
@@ -43,6 +43,7 @@ fn pressed_block(cells: [usize; 3], courant_number: f64, confined: bool) -> (Sol
         points: lattice(SVector::zeros(), cells.map(|n| 2 * n), 0.5 * H),
         velocity: at_rest(),
         point_spacing: 0.5 * H,
+        discretisation: Discretisation::default(),
     };
     let grid = cells.map(|n| n + 4);
     let parameters = parameters(H, SVector::repeat(-2.0 * H), grid, courant_number);

@@ -3,7 +3,9 @@
 
 mod lattice;
 
-use gimpm::{BodySeed, InitialVelocity, LinearElastic, Shape, Solid, SolidParameters};
+use gimpm::{
+    BodySeed, Discretisation, InitialVelocity, LinearElastic, Shape, Solid, SolidParameters,
+};
 use lattice::{lattice, parameters, planes};
 use motion::Motion;
 use nalgebra::SVector;
@@ -27,6 +29,7 @@ fn noise(seed: u64) -> impl FnMut() -> f64 {
 /// Two bodies of random points and velocities in the middle of a grid.
 fn debris<const D: usize>(
     seed: u64,
+    discretisation: Discretisation,
     change: impl FnOnce(&mut SolidParameters<D>),
     constraints: Vec<gimpm::NodeConstraint<D>>,
 ) -> Solid<D> {
@@ -45,6 +48,7 @@ fn debris<const D: usize>(
             points,
             velocity: InitialVelocity::PerPoint(velocity),
             point_spacing: spacing,
+            discretisation,
         }
     };
     let bodies = vec![body("first", -0.13, 0.05, 5), body("second", 0.15, 0.04, 4)];
@@ -53,7 +57,12 @@ fn debris<const D: usize>(
 
 /// Steps freely and returns the largest relative change of momentum.
 fn free_flight<const D: usize>(seed: u64, shape: Shape) -> f64 {
-    let mut solid = debris::<D>(seed, |p| p.shape = shape, Vec::new());
+    let mut solid = debris::<D>(
+        seed,
+        Discretisation { shape, ..Discretisation::default() },
+        |_| (),
+        Vec::new(),
+    );
     let start = solid.momentum();
     let scale: f64 = {
         let points = solid.points();
@@ -83,6 +92,7 @@ fn balance<const D: usize>(seed: u64) -> (f64, f64) {
     components[0] = None;
     let mut solid = debris::<D>(
         seed,
+        Discretisation::default(),
         |p| {
             p.gravity = SVector::from_fn(|d, _| [1.0, -9.81, 3.0][d]);
             p.damping = 0.1;
@@ -158,6 +168,7 @@ fn free_fall_is_uniform() {
         points: lattice(SVector::repeat(-0.1), [4; 3], 0.05),
         velocity: lattice::at_rest(),
         point_spacing: 0.05,
+        discretisation: Discretisation::default(),
     };
     let mut solid = Solid::new(parameters, vec![block], Vec::new()).unwrap();
     let (dt, steps) = (5e-4, 500);
@@ -184,6 +195,7 @@ fn work_of_loads_becomes_energy() {
         points: lattice(SVector::zeros(), [20, 4], 0.05),
         velocity: lattice::at_rest(),
         point_spacing: 0.05,
+        discretisation: Discretisation::default(),
     };
     let clamp = planes("clamp", 0, f64::NEG_INFINITY, 0.0, [Some(Motion::Fixed), None]);
     let parameters = parameters::<2>(H, SVector::repeat(-0.3), [16, 8], 0.1);

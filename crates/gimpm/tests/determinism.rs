@@ -3,7 +3,7 @@
 
 mod lattice;
 
-use gimpm::{BodySeed, InitialVelocity, LinearElastic, Solid, SolidState};
+use gimpm::{BodySeed, Discretisation, InitialVelocity, LinearElastic, Solid, SolidState};
 use lattice::{lattice, parameters, planes};
 use motion::Motion;
 use nalgebra::SVector;
@@ -17,6 +17,7 @@ fn blocks() -> Solid<3> {
         points: lattice(SVector::from(lower), [10, 10, 20], 0.05),
         velocity: InitialVelocity::Uniform(SVector::from(velocity)),
         point_spacing: 0.05,
+        discretisation: Discretisation::default(),
     };
     let bodies = vec![
         body("left", [0.0, 0.0, 0.0], [1.0, 0.0, 2.0]),

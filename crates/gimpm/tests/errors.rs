@@ -4,7 +4,8 @@
 mod lattice;
 
 use gimpm::{
-    BodySeed, InitialVelocity, LinearElastic, NodeConstraint, Solid, SolidError, SolidParameters,
+    BodySeed, Discretisation, InitialVelocity, LinearElastic, NodeConstraint, Solid, SolidError,
+    SolidParameters,
 };
 use lattice::{CONCRETE, at_rest, lattice, parameters, planes};
 use motion::Motion;
@@ -17,6 +18,7 @@ fn block() -> BodySeed<2> {
         points: lattice(SVector::zeros(), [4, 4], 0.05),
         velocity: at_rest(),
         point_spacing: 0.05,
+        discretisation: Discretisation::default(),
     }
 }
 

@@ -4,7 +4,7 @@
 
 mod lattice;
 
-use gimpm::{BodySeed, InitialVelocity, LinearElastic, Solid};
+use gimpm::{BodySeed, Discretisation, InitialVelocity, LinearElastic, Solid};
 use lattice::{lattice, parameters, planes};
 use motion::Motion;
 use nalgebra::SVector;
@@ -42,6 +42,7 @@ fn period_ratio(cells: usize) -> f64 {
         points,
         velocity: InitialVelocity::PerPoint(velocity),
         point_spacing: 0.5 * spacing,
+        discretisation: Discretisation::default(),
     };
     let clamp =
         planes("clamp", 0, f64::NEG_INFINITY, 0.0, [Some(Motion::Fixed), Some(Motion::Fixed)]);

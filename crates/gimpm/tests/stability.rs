@@ -3,7 +3,7 @@
 
 mod lattice;
 
-use gimpm::{BodySeed, InitialVelocity, LinearElastic, Shape, Solid};
+use gimpm::{BodySeed, Discretisation, InitialVelocity, LinearElastic, Shape, Solid};
 use lattice::{lattice, parameters, planes};
 use motion::Motion;
 use nalgebra::{Matrix3, SVector};
@@ -32,11 +32,11 @@ fn growth<const D: usize>(courant_number: f64, jitter: f64, offset: f64, shape: 
         points,
         velocity: InitialVelocity::PerPoint(velocity),
         point_spacing: 0.5 * H,
+        discretisation: Discretisation { shape, ..Discretisation::default() },
     };
     let fixed = std::array::from_fn(|_| Some(Motion::Fixed));
     let clamp = planes("clamp", 0, f64::NEG_INFINITY, 0.0, fixed);
-    let mut parameters = parameters(H, SVector::repeat(-2.0 * H), [9; D], courant_number);
-    parameters.shape = shape;
+    let parameters = parameters(H, SVector::repeat(-2.0 * H), [9; D], courant_number);
     let mut solid = Solid::new(parameters, vec![seed], vec![clamp]).unwrap();
     let start = solid.energy().kinetic;
     for _ in 0..3000 {
@@ -75,6 +75,7 @@ fn one_turn(cells: usize) -> [f64; 3] {
         points,
         velocity: InitialVelocity::PerPoint(velocity),
         point_spacing: 0.5 * spacing,
+        discretisation: Discretisation::default(),
     };
     let parameters = parameters(spacing, SVector::repeat(-0.8), [2 * cells; 2], 0.4);
     let mut solid = Solid::new(parameters, vec![seed], Vec::new()).unwrap();

@@ -1,6 +1,9 @@
 //! Material points.
 
-use gimpm::{BodySeed, InitialVelocity, NodeConstraint, Shape, SolidParameters};
+use gimpm::{
+    BodySeed, Discretisation, Hold, InitialVelocity, Loops, NodeConstraint, Shape, SolidParameters,
+    StressUpdate,
+};
 use nalgebra::SVector;
 
 use crate::CaseError;
@@ -45,10 +48,21 @@ pub(crate) fn seed<const D: usize>(
             points,
             velocity,
             point_spacing: solid.point_spacing,
+            discretisation: Discretisation {
+                shape: match solid.shape_function {
+                    ShapeFunctionForm::Ugimp => Shape::Ugimp,
+                    ShapeFunctionForm::Linear => Shape::Linear,
+                },
+                ..Discretisation::default()
+            },
         });
     }
-    let boundaries = solid.bodies.iter().flat_map(|body| &body.boundaries);
-    let constraints = boundaries.map(constraint).collect();
+    let constraints = solid
+        .bodies
+        .iter()
+        .enumerate()
+        .flat_map(|(index, body)| body.boundaries.iter().map(move |held| constraint(index, held)))
+        .collect();
     let cells = std::array::from_fn(|axis| solid.cells[axis]);
     let cell_text: Vec<_> = cells.iter().map(usize::to_string).collect();
     notes.push(format!(
@@ -58,10 +72,9 @@ pub(crate) fn seed<const D: usize>(
     ));
     let parameters = SolidParameters {
         gravity: shrink(&plan.gravity),
-        shape: match solid.shape_function {
-            ShapeFunctionForm::Ugimp => Shape::Ugimp,
-            ShapeFunctionForm::Linear => Shape::Linear,
-        },
+        gravity_ramp: 0.0,
+        stress_update: StressUpdate::ModifiedLast,
+        loops: Loops::Fast,
         courant_number: solid.courant_number,
         grid_spacing: solid.grid.spacing,
         grid_origin: shrink(&solid.grid.origin),
@@ -93,11 +106,12 @@ fn velocity<const D: usize>(body: &BodyPlan, points: &[Point]) -> InitialVelocit
     InitialVelocity::PerPoint(points.iter().map(at).collect())
 }
 
-fn constraint<const D: usize>(boundary: &BoundaryPlan) -> NodeConstraint<D> {
+fn constraint<const D: usize>(body: usize, boundary: &BoundaryPlan) -> NodeConstraint<D> {
     NodeConstraint {
         name: boundary.name.clone(),
+        body,
         lower: shrink(&boundary.lower),
         upper: shrink(&boundary.upper),
-        components: std::array::from_fn(|axis| boundary.components[axis].clone()),
+        hold: Hold::Components(std::array::from_fn(|axis| boundary.components[axis].clone())),
     }
 }

@@ -1,7 +1,8 @@
 //! A 2D water tank with a free or held block: the set-up of the coupling's tests.
 
 use gimpm::{
-    BodySeed, InitialVelocity, LinearElastic, NodeConstraint, Shape, Solid, SolidParameters,
+    BodySeed, Discretisation, InitialVelocity, LinearElastic, Loops, NodeConstraint, Solid,
+    SolidParameters, StressUpdate,
 };
 use nalgebra::{SVector, Vector2, vector};
 use sph::{Dissipation, Fluid, FluidParameters, FluidSeed, WallSeed};
@@ -92,7 +93,9 @@ impl Tank {
         let margin = (self.width / dx).ceil() as usize;
         let parameters = SolidParameters {
             gravity: vector![0.0, -GRAVITY],
-            shape: Shape::Ugimp,
+            gravity_ramp: 0.0,
+            stress_update: StressUpdate::ModifiedLast,
+            loops: Loops::Fast,
             courant_number: 0.5,
             grid_spacing: 2.0 * dx,
             grid_origin: block.lower - SVector::repeat(2.0 * dx * margin as f64),
@@ -106,6 +109,7 @@ impl Tank {
             points,
             velocity: InitialVelocity::Uniform(SVector::zeros()),
             point_spacing: dx,
+            discretisation: Discretisation::default(),
         };
         Solid::new(parameters, vec![body], constraints).unwrap()
     }

@@ -1,7 +1,7 @@
 //! Solver state to checkpoint entries and back, bit for bit.
 
 use coupling::{Coupled, CouplingLedger, FluidSide, SolidSide};
-use gimpm::Solid;
+use gimpm::{Solid, SupportNode};
 use nalgebra::{Matrix3, SVector};
 use sph::Fluid;
 
@@ -190,6 +190,9 @@ fn save_solid<const D: usize>(solid: &Solid<D>, checkpoint: &mut Checkpoint) {
     put_vectors(checkpoint, "solid.reaction_force", &forces);
     let moments = state.reactions.iter().flat_map(|reaction| reaction.moment).collect();
     checkpoint.reals.insert("solid.reaction_moment".into(), moments);
+    let supports = state.supports.iter();
+    let supports = supports.flat_map(|node| [node.gap, f64::from(u8::from(node.held))]).collect();
+    checkpoint.reals.insert("solid.supports".into(), supports);
     let ledger = &state.ledger;
     let mut numbers = vec![
         state.time,
@@ -237,6 +240,8 @@ fn load_solid<const D: usize>(solid: &mut Solid<D>, entries: Entries<'_>) -> Res
     for (reaction, (force, moment)) in state.reactions.iter_mut().zip(forces.iter().zip(moments)) {
         (reaction.force, reaction.moment) = (*force, *moment);
     }
+    let supports = entries.reals("solid.supports")?.as_chunks::<2>().0.iter();
+    state.supports = supports.map(|&[gap, held]| SupportNode { gap, held: held != 0.0 }).collect();
     let mut numbers = Numbers(entries.reals("solid.numbers")?.iter());
     let ledger = &mut state.ledger;
     for value in [

@@ -1,6 +1,8 @@
 //! Points on a lattice, and boxes of nodes without end.
 
-use gimpm::{InitialVelocity, LinearElastic, NodeConstraint, Shape, SolidParameters};
+use gimpm::{
+    Hold, InitialVelocity, LinearElastic, Loops, NodeConstraint, SolidParameters, StressUpdate,
+};
 use motion::Motion;
 use nalgebra::SVector;
 
@@ -33,7 +35,8 @@ pub fn planes<const D: usize>(
     let mut high = SVector::repeat(f64::INFINITY);
     low[axis] = lower;
     high[axis] = upper;
-    NodeConstraint { name: name.into(), lower: low, upper: high, components }
+    let hold = Hold::Components(components);
+    NodeConstraint { name: name.into(), body: 0, lower: low, upper: high, hold }
 }
 
 /// uGIMP without gravity or damping.
@@ -46,7 +49,9 @@ pub fn parameters<const D: usize>(
 ) -> SolidParameters<D> {
     SolidParameters {
         gravity: SVector::zeros(),
-        shape: Shape::Ugimp,
+        gravity_ramp: 0.0,
+        stress_update: StressUpdate::ModifiedLast,
+        loops: Loops::Fast,
         courant_number,
         grid_spacing: spacing,
         grid_origin: origin,

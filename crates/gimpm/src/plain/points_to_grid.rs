@@ -1,0 +1,52 @@
+//! Equations (1) and (2), one point at a time.
+
+use nalgebra::Matrix3;
+
+use crate::grid::{ACCELERATION, Grid, VELOCITY};
+use crate::parameters::Frame;
+use crate::points::Points;
+use crate::solid::Body;
+use crate::stencil::PointStencil;
+
+/// Adds mass, momentum (G5) and internal force (G6; G6b in the total frame).
+pub(crate) fn points_to_grid<const D: usize>(
+    body: &Body,
+    slab_offsets: &[usize],
+    points: &Points<D>,
+    grid: &mut Grid<D>,
+) {
+    let geometry = &grid.geometry;
+    geometry.scatter_by_slab(slab_offsets, &mut grid.nodes, |range, first, nodes| {
+        let mut stencil = PointStencil::default();
+        for p in range {
+            stencil.evaluate(body, geometry, points.site(body.discretisation.frame, p));
+            let (mass, velocity) = (points.mass[p], &points.velocity[p]);
+            let force = internal_force(body.discretisation.frame, points, p);
+            for entry in stencil.entries() {
+                let record = &mut nodes[entry.node as usize - first];
+                record[0] += entry.value * mass;
+                for d in 0..D {
+                    record[VELOCITY + d] += entry.value * mass * velocity[d];
+                    let pull: f64 = (0..D).map(|j| force[(d, j)] * entry.gradient[j]).sum();
+                    record[ACCELERATION + d] += pull;
+                }
+            }
+        }
+    });
+}
+
+/// What a unit of weight gradient adds to the force on a node (J): `-V σ`, or
+/// `-V0 P` with the first Piola–Kirchhoff stress `P = J σ F⁻ᵀ` in the total frame.
+fn internal_force<const D: usize>(frame: Frame, points: &Points<D>, p: usize) -> Matrix3<f64> {
+    let [xx, yy, zz, xy, yz, xz] = points.stress[p];
+    let stress = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    match frame {
+        Frame::Updated => stress * -points.volume[p],
+        Frame::Total => {
+            let f = &points.deformation_gradient[p];
+            let [a, b, c] = [f.column(0), f.column(1), f.column(2)];
+            let cofactor = Matrix3::from_columns(&[b.cross(&c), c.cross(&a), a.cross(&b)]);
+            stress * cofactor * -points.reference_volume[p]
+        }
+    }
+}
