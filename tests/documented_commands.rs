@@ -107,7 +107,7 @@ fn documented_runner_commands_work() {
                 run_well(&short);
                 ran += 1;
             }
-            Command::Check(_) | Command::List { .. } => {
+            Command::Check(_) | Command::List { .. } | Command::Material(_) => {
                 run_well(&arguments);
                 ran += 1;
             }

@@ -2,10 +2,12 @@
 
 mod fluid;
 mod overlap;
+mod selection;
 mod solid;
 mod walls;
 
 use coupling::{Correctors, CouplingParameters};
+use gimpm::Material;
 use nalgebra::SVector;
 
 use crate::estimate;
@@ -73,7 +75,7 @@ fn coupling(plan: &Plan) -> CouplingParameters {
         parameters.mass_ratio = solid
             .bodies
             .iter()
-            .map(|body| body.material.density * body.region.thickness() / layer)
+            .map(|body| body.material.density() * body.region.thickness() / layer)
             .fold(f64::INFINITY, f64::min);
     }
     parameters
@@ -93,6 +95,7 @@ fn gauge<const D: usize>(name: &str, kind: &GaugeKindPlan) -> Gauge<D> {
         GaugeKindPlan::Stress(body, position) => {
             GaugeKind::Stress { body: *body, position: shrink(position) }
         }
+        GaugeKindPlan::CenterOfMass(body) => GaugeKind::CenterOfMass { body: *body },
         GaugeKindPlan::Force(target, about) => {
             GaugeKind::Force { target: *target, about: shrink(about) }
         }

@@ -1,11 +1,11 @@
 //! What a case will cost, known before anything is seeded.
 
-use gimpm::Material;
+use gimpm::{Frame, Material};
 
 use crate::format::DissipationForm;
 use crate::geometry::Point;
 use crate::memory;
-use crate::plan::{FluidPlan, Plan, SolidPlan, WallPlan, WallShape};
+use crate::plan::{BodyPlan, FluidPlan, Plan, SolidPlan, WallPlan, WallShape};
 use crate::validate::Checker;
 
 /// Bytes of state and work arrays per item, all buffers of a run included.
@@ -85,8 +85,7 @@ impl Counts {
             let dimension = solid.grid.dimension;
             let cell = solid.point_spacing.powi(dimension as i32);
             counts.points = solid.bodies.iter().map(|body| body.region.volume() / cell).sum();
-            // The solver adds two planes of nodes on each side.
-            counts.nodes = (0..dimension).map(|axis| solid.cells[axis] as f64 + 5.0).product();
+            counts.nodes = grid_nodes(solid);
         }
         counts
     }
@@ -98,6 +97,22 @@ impl Counts {
     fn solid_memory(&self) -> f64 {
         self.points * MATERIAL_POINT + self.nodes * GRID_NODE
     }
+}
+
+/// Nodes of all grids: bodies in the updated frame share the background grid, or have one
+/// each for contact; one in the total frame has the part that it covers.
+fn grid_nodes(solid: &SolidPlan) -> f64 {
+    let axes = 0..solid.grid.dimension;
+    // The solver adds two planes of nodes on each side.
+    let whole: f64 = axes.clone().map(|axis| solid.cells[axis] as f64 + 5.0).product();
+    let covered = |body: &BodyPlan| -> f64 {
+        let (lower, upper) = body.region.bounds();
+        axes.clone().map(|d| ((upper[d] - lower[d]) / solid.grid.spacing).ceil() + 5.0).product()
+    };
+    let (updated, total): (Vec<_>, Vec<_>) =
+        solid.bodies.iter().partition(|body| body.discretisation.frame == Frame::Updated);
+    let shared = if solid.contact.is_some() { updated.len() } else { updated.len().min(1) };
+    shared as f64 * whole + total.into_iter().map(covered).sum::<f64>()
 }
 
 /// Volume that a wall fills with particles (m^D).

@@ -4,24 +4,31 @@
 //! a checked file. `docs/case.md` lists every field with unit, default and
 //! allowed range.
 
+mod boundary;
+mod discretisation;
 mod fluid;
 mod gauge;
+mod material;
 mod motion;
 mod shape;
 mod solid;
 
 use serde::Deserialize;
 
+pub use boundary::{
+    BoundaryForm, BoundaryMotionForm, LoadForm, LoadKindForm, LoadLocationForm, LocationForm,
+};
+pub use discretisation::{
+    ContactForm, FrameForm, RelaxationForm, ShapeFunctionForm, StressUpdateForm, TransferForm,
+};
 pub use fluid::{
     BlockForm, DissipationForm, Fit, FluidForm, PressureForm, SoundSpeedForm, WallForm,
 };
 pub use gauge::GaugeForm;
+pub use material::MaterialForm;
 pub use motion::{LawForm, WallMotionForm};
 pub use shape::{OperationForm, RotationForm, ShapeForm};
-pub use solid::{
-    BodyForm, BoundaryForm, BoundaryMotionForm, LocationForm, MaterialForm, ShapeFunctionForm,
-    SolidForm, VelocityModeForm,
-};
+pub use solid::{BodyForm, SolidForm, VelocityModeForm};
 
 /// A vector in metres (or m/s, m/s²): two components in 2D `[x, y]`, y up;
 /// three in 3D `[x, y, z]`, z up.

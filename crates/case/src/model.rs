@@ -1,7 +1,7 @@
 //! A checked case turned into the inputs of the solvers.
 
 use coupling::CouplingParameters;
-use gimpm::{BodySeed, NodeConstraint, SolidParameters};
+use gimpm::{BodySeed, NodeConstraint, SolidParameters, SurfaceLoad};
 use nalgebra::SVector;
 use sph::{FluidParameters, FluidSeed, WallSeed};
 
@@ -60,6 +60,8 @@ pub struct SolidModel<const D: usize> {
     pub bodies: Vec<BodySeed<D>>,
     /// Boundaries, body by body, in the order of the case file.
     pub constraints: Vec<NodeConstraint<D>>,
+    /// Surface loads, body by body, in the order of the case file.
+    pub loads: Vec<SurfaceLoad<D>>,
 }
 
 /// A recorded quantity with its references resolved.
@@ -109,6 +111,11 @@ pub enum GaugeKind<const D: usize> {
         body: usize,
         /// Where in the undeformed body (m).
         position: SVector<f64, D>,
+    },
+    /// Displacement (m) and velocity (m/s) of a body's centre of mass.
+    CenterOfMass {
+        /// Index into [`SolidModel::bodies`].
+        body: usize,
     },
     /// Force and moment.
     Force {

@@ -1,10 +1,10 @@
 //! A case whose every field has been checked, before anything is seeded.
 
-use gimpm::LinearElastic;
+use gimpm::{Contact, Discretisation, MaterialModel, Relaxation, StressUpdate};
 use motion::Motion;
 
 use crate::Estimate;
-use crate::format::{CorrectorsForm, DissipationForm, PressureForm, ShapeFunctionForm};
+use crate::format::{CorrectorsForm, DissipationForm, PressureForm};
 use crate::geometry::{Point, Region};
 use crate::lattice::Lattice;
 use crate::model::{ForceTarget, OutputIntervals};
@@ -84,9 +84,12 @@ pub(crate) struct SolidPlan {
     pub(crate) grid: Lattice,
     pub(crate) cells: [usize; 3],
     pub(crate) point_spacing: f64,
-    pub(crate) shape_function: ShapeFunctionForm,
+    pub(crate) stress_update: StressUpdate,
+    pub(crate) contact: Option<Contact>,
+    pub(crate) relaxation: Option<Relaxation>,
     pub(crate) courant_number: f64,
     pub(crate) damping: f64,
+    pub(crate) gravity_ramp: f64,
     pub(crate) bodies: Vec<BodyPlan>,
 }
 
@@ -94,12 +97,16 @@ pub(crate) struct SolidPlan {
 pub(crate) struct BodyPlan {
     pub(crate) name: String,
     pub(crate) region: Region,
-    pub(crate) material: LinearElastic,
+    pub(crate) material: MaterialModel,
+    /// Name of the law, as in the file.
+    pub(crate) law: &'static str,
+    pub(crate) discretisation: Discretisation,
     pub(crate) velocity: Point,
     pub(crate) mode: Option<ModePlan>,
     /// Lattice of the material points, a plane of it on every constrained face.
     pub(crate) lattice: Lattice,
     pub(crate) boundaries: Vec<BoundaryPlan>,
+    pub(crate) loads: Vec<LoadPlan>,
 }
 
 /// `v = amplitude sin(2π (x·axis - origin)/wavelength)`.
@@ -116,7 +123,50 @@ pub(crate) struct BoundaryPlan {
     pub(crate) name: String,
     pub(crate) lower: Point,
     pub(crate) upper: Point,
-    pub(crate) components: [Option<Motion>; 3],
+    pub(crate) hold: HoldPlan,
+}
+
+/// What a boundary prescribes.
+#[derive(Debug, Clone)]
+pub(crate) enum HoldPlan {
+    Components([Option<Motion>; 3]),
+    /// Along a unit vector from the support into the body.
+    Normal {
+        direction: Point,
+        motion: Motion,
+        one_sided: bool,
+    },
+}
+
+impl HoldPlan {
+    /// All prescribed motions.
+    pub(crate) fn motions(&self) -> impl Iterator<Item = &Motion> {
+        let (components, normal) = match self {
+            Self::Components(components) => (components.as_slice(), None),
+            Self::Normal { motion, .. } => (&[][..], Some(motion)),
+        };
+        components.iter().flatten().chain(normal)
+    }
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct LoadPlan {
+    pub(crate) name: String,
+    pub(crate) axis: usize,
+    pub(crate) upper_side: bool,
+    /// Box around the centres of the loaded faces.
+    pub(crate) lower: Point,
+    pub(crate) upper: Point,
+    pub(crate) kind: LoadKindPlan,
+    /// (s).
+    pub(crate) ramp: f64,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum LoadKindPlan {
+    Traction(Point),
+    Pressure(f64),
+    Hydrostatic { level: f64, specific_weight: f64 },
 }
 
 #[derive(Debug, Clone)]
@@ -133,5 +183,6 @@ pub(crate) enum GaugeKindPlan {
     Front(Point),
     Displacement(usize, Point),
     Stress(usize, Point),
+    CenterOfMass(usize),
     Force(ForceTarget, Point),
 }

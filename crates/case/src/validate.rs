@@ -1,8 +1,12 @@
 //! From the file as written to a checked [`Plan`].
 
+mod boundary;
 mod checker;
+mod discretisation;
 mod fluid;
 mod gauges;
+mod load;
+mod material;
 mod scope;
 mod shape;
 mod solid;
@@ -16,7 +20,7 @@ use crate::model::OutputIntervals;
 use crate::plan::{FluidPlan, Plan, SolidPlan, WallPlan, WallShape};
 use crate::source::Source;
 
-pub(crate) use checker::{AXES, Checker, position_text, short};
+pub(crate) use checker::{AXES, Checker, FACES, position_text, short};
 
 /// Checks everything and resolves it. All independent mistakes are reported.
 pub(crate) fn plan(
@@ -64,8 +68,9 @@ pub(crate) fn plan(
             return Err(check.into_error());
         }
     }
-    let solid =
-        form.solid.as_ref().and_then(|solid| solid::plan(solid, fluid.as_ref(), &mut check));
+    let solid = form.solid.as_ref().and_then(|solid| {
+        solid::plan(solid, fluid.as_ref(), &gravity_known, form.end_time, &mut check)
+    });
     // What follows relates the parts to each other, which needs them all.
     if check.failed() {
         return Err(check.into_error());

@@ -130,3 +130,137 @@ fn a_beach_is_a_flat_face_at_half_a_spacing() {
         fluid.particles.iter().all(|seed| (seed.position - vector![1.0, 0.0]).dot(&normal) > 0.0)
     );
 }
+
+/// A plane block of 1 m × 0.4 m with fields put into the solid and into the body.
+fn block(solid: &str, body: &str) -> Result<Case, case::CaseError> {
+    let text = format!(
+        r#"(
+            name: "block", dimension: 2, end_time: 1.0,
+            solid: (grid_spacing: 0.1, {solid} bodies: [(
+                name: "block", shape: Box(lower: [0, 0], upper: [1, 0.4]),
+                material: NeoHookean(density: 1000, young_modulus: 1e6, poisson_ratio: 0.3),
+                {body}
+            )]),
+            output: (frame_interval: 0.1),
+        )"#
+    );
+    Case::parse("block.ron", &text, &[])
+}
+
+fn block_model(solid: &str, body: &str) -> case::SolidModel<2> {
+    block(solid, body).unwrap().build::<2>().unwrap().solid.unwrap()
+}
+
+#[test]
+fn a_body_takes_its_own_choices_before_those_of_the_solid() {
+    use gimpm::{Discretisation, Frame, Shape, Transfer};
+    let of = |solid, body| block_model(solid, body).bodies[0].discretisation;
+    let total = Discretisation { frame: Frame::Total, ..Discretisation::default() };
+    assert_eq!(of("", ""), total);
+    assert_eq!(of("contact: (friction: 0.3),", ""), Discretisation::default());
+    let chosen = of(
+        "frame: Updated, shape_function: Linear, transfer: Apic,",
+        "frame: Total, shape_function: Cpdi, transfer: Fmpm(order: 3), mean_dilatation: true,",
+    );
+    let expected = Discretisation {
+        frame: Frame::Total,
+        shape: Shape::Cpdi,
+        transfer: Transfer::Fmpm { order: 3 },
+        mean_dilatation: true,
+    };
+    assert_eq!(chosen, expected);
+    let warnings = |solid: &str, body: &str| block(solid, body).unwrap().warnings().to_vec();
+    assert!(warnings("shape_function: Cpdi,", "")[0].contains("changes nothing"));
+    assert!(warnings("", "").is_empty());
+    let restless = "boundaries: [(name: \"press\", where: Face(\"y+\"), motion: Driven(y: Constant(velocity: -1)))],";
+    assert!(warnings("relaxation: (),", restless)[0].contains("cannot come to rest"));
+    let table = "boundaries: [(name: \"press\", where: Face(\"y+\"), motion: Driven(y: Table(rows: [(0, 0), (0.5, -0.1)])))],";
+    assert!(warnings("relaxation: (),", table).is_empty());
+}
+
+#[test]
+fn the_solids_settings_reach_the_solver() {
+    let parameters = block_model(
+        "frame: Updated, stress_update: Usf, contact: (friction: 0.3), relaxation: (tolerance: 1e-4), gravity_ramp: 2.0,",
+        "",
+    )
+    .parameters;
+    assert_eq!(parameters.stress_update, gimpm::StressUpdate::First);
+    assert_eq!(parameters.contact, Some(gimpm::Contact { friction: 0.3 }));
+    assert_eq!(parameters.relaxation, Some(gimpm::Relaxation { tolerance: 1e-4 }));
+    assert_eq!(parameters.gravity_ramp, 2.0);
+}
+
+#[test]
+fn boundaries_hold_components_and_normals() {
+    use gimpm::Hold;
+    let model = block_model(
+        "",
+        r#"boundaries: [
+            (name: "middle", where: Face("x-"), motion: Symmetry),
+            (name: "roof", where: Face("y+"), motion: Slip()),
+            (name: "floor", where: Face("y-"), motion: Support()),
+            (name: "slope", where: Region(lower: [0.2, 0.0], upper: [0.8, 0.0]),
+             motion: Slip(normal: [-3.0, 4.0], law: Constant(velocity: 0.5))),
+        ],"#,
+    );
+    let Hold::Components([Some(_), None]) = &model.constraints[0].hold else { panic!() };
+    let normal = |index: usize| match &model.constraints[index].hold {
+        Hold::Normal { direction, motion, one_sided } => {
+            (*direction, motion.velocity(0.1), *one_sided)
+        }
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(normal(1), (vector![0.0, -1.0], 0.0, false));
+    assert_eq!(normal(2), (vector![0.0, 1.0], 0.0, true));
+    let (direction, velocity, one_sided) = normal(3);
+    assert!((direction - vector![-0.6, 0.8]).norm() < 1e-12 && velocity == 0.5 && !one_sided);
+}
+
+#[test]
+fn loads_name_the_faces_they_act_on() {
+    let body = r#"loads: [
+        (name: "pull", where: Face("x+"), kind: Traction([2.0e8, 0.0]), ramp: 0.1),
+        (name: "push", where: Region(face: "y+", lower: [0.25, 0.4], upper: [0.75, 0.4]), kind: Pressure(5.0)),
+        (name: "water", where: Face("x-"), kind: Hydrostatic(level: 0.3)),
+        (name: "brine", where: Face("x-"), kind: Hydrostatic(level: 0.3, density: 1200)),
+    ],"#;
+    let case = block("", body).unwrap();
+    let model = case.build::<2>().unwrap();
+    for note in
+        ["`pull`: 8 point faces towards x+, 0.4 m", "`push`: 10 point faces towards y+, 0.5 m"]
+    {
+        assert!(model.notes.iter().any(|line| line.contains(note)), "{note}: {:?}", model.notes);
+    }
+    let loads = model.solid.unwrap().loads;
+    assert_eq!((loads[0].axis, loads[0].upper_side, loads[0].ramp), (0, true, 0.1));
+    assert!(loads[0].lower.x < 1.0 && loads[0].upper.x > 1.0 && loads[0].upper.y == f64::INFINITY);
+    assert!(!loads[2].upper_side);
+    let weight = |index: usize| match loads[index].kind {
+        gimpm::LoadKind::Hydrostatic { specific_weight, .. } => specific_weight,
+        other => panic!("{other:?}"),
+    };
+    assert!((weight(2) - 9810.0).abs() < 1e-9 && (weight(3) - 11_772.0).abs() < 1e-9);
+}
+
+#[test]
+fn round_bodies_in_the_total_frame_fill_cells_with_whole_points() {
+    let text = r#"(
+        name: "disc", dimension: 2, end_time: 1.0,
+        solid: (grid_spacing: 0.1, bodies: [
+            (name: "table", shape: Box(lower: [0, 0], upper: [1, 0.2]),
+             material: LinearElastic(density: 1000, young_modulus: 1e6, poisson_ratio: 0.3)),
+            (name: "disc", shape: Sphere(center: [0.513, 0.497], radius: 0.21),
+             material: LinearElastic(density: 1000, young_modulus: 1e6, poisson_ratio: 0.3)),
+        ]),
+        output: (frame_interval: 0.1),
+    )"#;
+    let solid = Case::parse("disc.ron", text, &[]).unwrap().build::<2>().unwrap().solid.unwrap();
+    let disc = &solid.bodies[1].points;
+    assert!(disc.len() > 40);
+    assert!(
+        disc.iter().flatten().all(|x| (x / 0.05 - 0.5 - (x / 0.05 - 0.5).round()).abs() < 1e-9)
+    );
+    // The solver, which demands whole points in every cell, agrees.
+    gimpm::Solid::new(solid.parameters, solid.bodies, solid.constraints).unwrap();
+}

@@ -38,7 +38,7 @@ impl CouplingLedger {
     /// Adds one step.
     ///
     /// The residual is
-    /// `|I_fluid + ΔP_solid - I_gravity - I_supports| / (Δt Σ|f_p| + |I_gravity| + |I_supports|)`:
+    /// `|I_fluid + ΔP_solid - I_loads - I_supports| / (Δt Σ|f_p| + |I_loads| + |I_supports|)`:
     /// what the fluid side and the solid side, supports included, disagree by,
     /// relative to the impulses that passed. Where the fluid passes none, `Σ m|v|` of the
     /// solid joins the denominator: the reaction of a vibrating solid goes through 0.
@@ -50,14 +50,13 @@ impl CouplingLedger {
         mean_velocity: &[SVector<f64, D>],
     ) {
         let solid = &balance.solid_impulse;
-        let residual =
-            balance.fluid_impulse + solid.momentum_change - solid.gravity - solid.supports;
+        let residual = balance.fluid_impulse + solid.momentum_change - solid.loads - solid.supports;
         let [size, work, mismatch] = ordered_reduction::sum(load.len(), |index| {
             let force = load[index];
             let mean = mean_velocity[index];
             [force.norm(), force.dot(&mean), force.dot(&(assumed_velocity[index] - mean))]
         });
-        let passed = balance.dt * size + solid.gravity.norm() + solid.supports.norm();
+        let passed = balance.dt * size + solid.loads.norm() + solid.supports.norm();
         let scale = if size > 0.0 { passed } else { passed + solid.magnitude };
         self.momentum_residual = if scale > 0.0 { residual.norm() / scale } else { 0.0 };
         self.largest_in_row = self.largest_in_row.max(self.momentum_residual);

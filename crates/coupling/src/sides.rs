@@ -31,8 +31,8 @@ pub struct StructurePoints<const D: usize> {
 pub struct SolidImpulse<const D: usize> {
     /// Change of the points' momentum, Σ m v at the end minus at the start.
     pub momentum_change: SVector<f64, D>,
-    /// Impulse of gravity.
-    pub gravity: SVector<f64, D>,
+    /// Impulse of gravity and of loads other than the fluid's.
+    pub loads: SVector<f64, D>,
     /// Impulse of the supports on the solid.
     pub supports: SVector<f64, D>,
     /// Σ m |v| at the end: the size that round-off of the momentum has.
@@ -43,7 +43,7 @@ impl<const D: usize> SolidImpulse<D> {
     /// No momentum exchanged.
     pub fn zero() -> Self {
         let zero = SVector::zeros();
-        Self { momentum_change: zero, gravity: zero, supports: zero, magnitude: 0.0 }
+        Self { momentum_change: zero, loads: zero, supports: zero, magnitude: 0.0 }
     }
 }
 

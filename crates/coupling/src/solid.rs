@@ -43,6 +43,7 @@ impl<const D: usize> SolidSide<D> for Solid<D> {
             self.scatter_point_force(load);
             self.step(substep)?;
             let held = &self.state().reactions;
+            impulse.loads += self.state().load * substep;
             impulse.supports +=
                 held.iter().map(|reaction| reaction.force * substep).sum::<SVector<f64, D>>();
         }
@@ -51,7 +52,6 @@ impl<const D: usize> SolidSide<D> for Solid<D> {
         [impulse.magnitude] = ordered_reduction::sum(points.len(), |point| {
             [points.mass[point] * points.velocity[point].norm()]
         });
-        impulse.gravity = self.parameters().gravity * (self.total_mass() * dt);
         end_position.copy_from_slice(&Solid::points(self).position);
         Ok(impulse)
     }

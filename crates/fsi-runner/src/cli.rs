@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::output::rerun_options::SolidColour;
 
 /// Simulates what a tsunami does to a structure: SPH water, GIMPM solid, coupled both ways.
 #[derive(Debug, Parser)]
@@ -44,6 +46,8 @@ pub enum Command {
     },
     /// Run cases, compare them with their references and print the table.
     Verify(VerifyArguments),
+    /// Drive a body's constitutive law along a path of deformation, at one point.
+    Material(MaterialArguments),
     /// Convert a finished or running run for other programs.
     Export {
         /// Folder of the run.
@@ -99,9 +103,55 @@ pub struct RunArguments {
     /// Where to write the Rerun recording; by default `NAME.rrd` in the output folder.
     #[arg(long, value_name = "FILE")]
     pub rrd: Option<PathBuf>,
+    /// What colours the solids in Rerun.
+    #[arg(long, value_enum, default_value_t, value_name = "QUANTITY")]
+    pub solid_colour: SolidColour,
     /// Write no Rerun recording.
     #[arg(long, conflicts_with = "rrd")]
     pub no_rrd: bool,
+}
+
+/// Arguments of `material`.
+#[derive(Debug, Clone, Args)]
+pub struct MaterialArguments {
+    /// The case.
+    #[command(flatten)]
+    pub case: CaseArguments,
+    /// The body; may be left out when there is only one.
+    #[arg(long, value_name = "NAME")]
+    pub body: Option<String>,
+    /// How the point is deformed.
+    #[arg(long, value_enum, ignore_case = true, default_value_t, value_name = "PATH")]
+    pub path: MaterialPath,
+    /// Engineering strain (in shear: γ) at the end of a leg; several make a path there and
+    /// back: `--strain 0.01 --strain -0.01`.
+    #[arg(long, required = true, allow_negative_numbers = true, value_name = "STRAIN")]
+    pub strain: Vec<f64>,
+    /// Steps of each leg.
+    #[arg(long, default_value_t = 200, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub steps: u32,
+    /// Also write all steps to this file.
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+}
+
+/// Paths of deformation of one point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+#[value(rename_all = "PascalCase")]
+pub enum MaterialPath {
+    /// Stretched along x, free along y and z.
+    #[default]
+    UniaxialStress,
+    /// Stretched along x and y alike, free along z.
+    BiaxialStress,
+    /// Stretched along x, free along y, held along z.
+    PlaneStrain,
+    /// Stretched along x, held along y and z.
+    UniaxialStrain,
+    /// Stretched along all axes alike.
+    VolumetricStrain,
+    /// Sheared: x moves with y.
+    SimpleShear,
 }
 
 /// Arguments of `verify`.

@@ -10,7 +10,7 @@ use crate::output::frame::{Frame, RunHeader};
 use crate::output::layout::Table;
 use crate::output::progress::{Progress, ProgressState};
 use crate::output::rerun_log::RerunLog;
-use crate::output::rerun_options::{Marker, RerunOptions, RerunTarget};
+use crate::output::rerun_options::{Marker, RerunOptions, RerunTarget, SolidColour};
 use crate::output::run_file::{ResumePoint, RunFile};
 use crate::output::run_reader::RunReader;
 use crate::output::xdmf::XdmfSidecar;
@@ -43,6 +43,8 @@ pub struct RecorderSettings<'a> {
     pub case_hash: u64,
     /// Where to log for Rerun, if anywhere.
     pub rerun: Option<RerunTarget>,
+    /// What colours the solids in Rerun.
+    pub solid_colour: SolidColour,
     /// Simulated time at which the run ends (s).
     pub end_time: f64,
     /// Continue the files in the folder from the simulation's time.
@@ -59,7 +61,8 @@ impl Recorder {
         settings: RecorderSettings<'_>,
         simulation: &dyn Simulation,
     ) -> Result<Self, Failure> {
-        let RecorderSettings { folder, header, case_hash, rerun, end_time, resume } = settings;
+        let RecorderSettings { folder, header, case_hash, rerun, solid_colour, end_time, resume } =
+            settings;
         let (gauge_columns, ledger_columns) =
             (simulation.gauge_columns(), simulation.ledger_columns());
         let statics = simulation.static_clouds();
@@ -94,7 +97,7 @@ impl Recorder {
                     .into_iter()
                     .map(|(name, position)| Marker { name, position })
                     .collect();
-                let options = RerunOptions { markers, ..RerunOptions::new(target) };
+                let options = RerunOptions { markers, solid_colour, ..RerunOptions::new(target) };
                 let first = simulation.frame(0);
                 Some(RerunLog::start(
                     options,

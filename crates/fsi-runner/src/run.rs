@@ -14,6 +14,8 @@ use crate::simulation::Simulation;
 pub enum Ending {
     /// The end time was reached.
     Finished,
+    /// The solid found its static state before that.
+    Relaxed,
     /// The user asked to stop; a checkpoint was written.
     Interrupted,
 }
@@ -39,7 +41,8 @@ pub struct Recorded {
     pub checkpoints: u64,
 }
 
-/// Steps `simulation` to the end of `schedule`, recording what falls due.
+/// Steps `simulation` to the end of `schedule`, or until its solid is relaxed, recording
+/// what falls due.
 ///
 /// The time step is never shortened to meet an output time, only to meet the
 /// end: a record is made after the first step at or beyond its time, so that
@@ -58,7 +61,13 @@ pub fn run(
     // A step that would end this close to the end time is not worth taking.
     let end = schedule.end_time * (1.0 - 1e-12);
     record_due(simulation, schedule, recorder, recorded)?;
+    let mut ending = Ending::Finished;
     while simulation.time() < end {
+        // Also true at once for a resumed run that had ended so.
+        if simulation.is_relaxed() {
+            ending = Ending::Relaxed;
+            break;
+        }
         let limit = simulation.time_step().map_err(|error| stopped(recorder, &error))?;
         let dt = limit.value.min(schedule.end_time - simulation.time());
         simulation.step(dt).map_err(|error| stopped(recorder, &error))?;
@@ -71,7 +80,7 @@ pub fn run(
     }
     record_end(simulation, recorder, recorded)?;
     save(simulation, recorder, recorded)?;
-    Ok(Ending::Finished)
+    Ok(ending)
 }
 
 fn record_due(

@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::folder::RunFolder;
 use crate::output::frame::Column;
 use crate::output::progress::duration;
-use crate::simulation::Simulation;
+use crate::simulation::{RelaxationProgress, Simulation};
 
 /// Largest and smallest value of each gauge column.
 #[derive(Debug, Clone)]
@@ -47,6 +47,22 @@ pub struct Cost {
     pub threads: usize,
 }
 
+/// Whether the static state was found.
+fn relaxation(progress: &RelaxationProgress, time: f64) -> String {
+    let RelaxationProgress { out_of_balance, tolerance, relaxed } = *progress;
+    if relaxed {
+        format!(
+            "at rest at t = {time:.6} s: unbalanced force {out_of_balance:.2e} of the load, \
+             tolerance {tolerance:.1e}"
+        )
+    } else {
+        format!(
+            "NOT at rest: unbalanced force {out_of_balance:.2e} of the load is above the tolerance \
+             {tolerance:.1e}; raise end_time or the tolerance"
+        )
+    }
+}
+
 /// The text printed after a run.
 pub fn summary(
     simulation: &dyn Simulation,
@@ -70,6 +86,9 @@ pub fn summary(
         simulation.time(),
         simulation.substeps()
     );
+    if let Some(progress) = simulation.relaxation() {
+        let _ = writeln!(text, "relaxation  {}", relaxation(&progress, simulation.time()));
+    }
     let _ = writeln!(
         text,
         "wall time   {} on {} threads: {:.1} steps/s, {:.2} M particle-steps/s",

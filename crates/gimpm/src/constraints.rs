@@ -5,9 +5,9 @@ use nalgebra::SVector;
 
 use crate::error::SolidError;
 use crate::field::Field;
-use crate::grid::{ACCELERATION, VELOCITY};
+use crate::grid::{ACCELERATION, RemapRecord, VELOCITY};
 use crate::parameters::{Hold, NodeConstraint};
-use crate::reaction::{Reaction, moment_of};
+use crate::reaction::{Reaction, add_reaction};
 use crate::solid::Solid;
 
 /// Width of a constraint box's closed boundary, in cells: node positions carry
@@ -16,18 +16,18 @@ const BOX_TOLERANCE: f64 = 1e-9;
 
 /// A node with the constraint that holds each of its components.
 #[derive(Debug, Clone)]
-struct ComponentNode<const D: usize> {
-    field: usize,
-    node: usize,
-    owner: [Option<u16>; D],
+pub(crate) struct ComponentNode<const D: usize> {
+    pub field: usize,
+    pub node: usize,
+    pub owner: [Option<u16>; D],
 }
 
 /// A node that is held along one direction.
 #[derive(Debug, Clone)]
-struct NormalNode {
-    field: usize,
-    node: usize,
-    owner: u16,
+pub(crate) struct NormalNode {
+    pub field: usize,
+    pub node: usize,
+    pub owner: u16,
 }
 
 /// What a node on a one-sided support remembers (G9b).
@@ -43,9 +43,11 @@ pub struct SupportNode {
 #[derive(Debug, Clone)]
 pub(crate) struct Constraints<const D: usize> {
     pub names: Vec<String>,
-    holds: Vec<Hold<D>>,
-    components: Vec<ComponentNode<D>>,
-    normals: Vec<NormalNode>,
+    pub holds: Vec<Hold<D>>,
+    /// By field, then by node.
+    pub components: Vec<ComponentNode<D>>,
+    /// By field, then by node; several at one node in the constraints' order.
+    pub normals: Vec<NormalNode>,
 }
 
 impl<const D: usize> Constraints<D> {
@@ -108,6 +110,23 @@ impl<const D: usize> Constraints<D> {
         }
         let (names, holds) = constraints.into_iter().map(|c| (c.name, c.hold)).unzip();
         Ok(Self { names, holds, components, normals })
+    }
+
+    /// Tells the fields which components local damping must leave alone: what acts on
+    /// a held one is the reaction, not a damped force. A node held along a direction is
+    /// left alone altogether.
+    pub fn mark_held(&self, fields: &mut [Field<D>]) {
+        for field in fields.iter_mut() {
+            field.held = vec![0; field.grid.geometry.node_count()];
+        }
+        for held in &self.components {
+            for d in (0..D).filter(|&d| held.owner[d].is_some()) {
+                fields[held.field].held[held.node] |= 1 << d;
+            }
+        }
+        for held in &self.normals {
+            fields[held.field].held[held.node] = u8::MAX;
+        }
     }
 
     /// Nodes held along a direction: each has a [`SupportNode`] in the state.
@@ -204,7 +223,9 @@ impl<const D: usize> Solid<D> {
     /// The node's velocity before the step is the boundary's own one, not the
     /// mass average of the points around it, so holding a node still costs
     /// neither energy nor stiffness. At the very start a boundary that is already
-    /// moving takes hold of what it finds: the average then is the velocity before.
+    /// moving takes hold of what it finds: the average then is the velocity before. So
+    /// it is at every step where points take the velocity of nodes: there the average
+    /// is what they lose.
     pub(crate) fn constrain_acceleration(&mut self, dt: f64) {
         let time = self.state.time;
         self.previous_velocity.clone_from(&self.state.constraint_velocity);
@@ -221,7 +242,9 @@ impl<const D: usize> Solid<D> {
         let state = &mut self.state;
         let starting = state.steps == 0;
         for held in &self.constraints.components {
-            let grid = &mut self.fields[held.field].grid;
+            let field = &mut self.fields[held.field];
+            let replaced = field.transfer.replaces_velocity();
+            let grid = &mut field.grid;
             let record = &mut grid.nodes[held.node];
             let mass = record[0];
             if mass <= self.mass_cut {
@@ -232,7 +255,8 @@ impl<const D: usize> Solid<D> {
                 let Some(owner) = held.owner[d].map(usize::from) else { continue };
                 let velocity = state.constraint_velocity[owner][d];
                 let free = record[ACCELERATION + d];
-                let before = if starting && self.constraints.holds[owner].starts_moving(d) {
+                let takes_hold = starting && self.constraints.holds[owner].starts_moving(d);
+                let before = if replaced || takes_hold {
                     record[VELOCITY + d] - dt * free
                 } else {
                     self.previous_velocity[owner][d]
@@ -256,7 +280,9 @@ impl<const D: usize> Solid<D> {
             let owner = usize::from(held.owner);
             let hold = &self.constraints.holds[owner];
             let Hold::Normal { direction, one_sided, .. } = hold else { continue };
-            let grid = &mut self.fields[held.field].grid;
+            let field = &mut self.fields[held.field];
+            let replaced = field.transfer.replaces_velocity();
+            let grid = &mut field.grid;
             let record = &mut grid.nodes[held.node];
             let mass = record[0];
             if mass <= self.mass_cut {
@@ -281,7 +307,7 @@ impl<const D: usize> Solid<D> {
             }
             let takes_hold =
                 if *one_sided { !support.held } else { starting && hold.starts_moving(0) };
-            let before = if takes_hold {
+            let before = if replaced || takes_hold {
                 moving - dt * free
             } else {
                 self.previous_velocity[owner].dot(direction)
@@ -320,19 +346,46 @@ impl<const D: usize> Solid<D> {
         }
     }
 
+    /// Boundary conditions on an increment of the velocity of a field: none along
+    /// what is held. With a step `dt` (s) what is taken away is a reaction.
+    pub(crate) fn hold_increment(
+        &mut self,
+        field: usize,
+        increment: &mut [RemapRecord],
+        dt: Option<f64>,
+    ) {
+        let grid = &self.fields[field].grid;
+        let state = &mut self.state;
+        let reactions = &mut state.reactions;
+        let mut react = |owner: usize, node: usize, taken: SVector<f64, D>| {
+            if let Some(dt) = dt {
+                let force = taken * (-grid.nodes[node][0] / dt);
+                add_reaction(&mut reactions[owner], &grid.geometry.node_position(node), &force);
+            }
+        };
+        for (held, support) in self.constraints.normals.iter().zip(&state.supports) {
+            let owner = usize::from(held.owner);
+            let Hold::Normal { direction, .. } = &self.constraints.holds[owner] else { continue };
+            if held.field == field && support.held {
+                let record = &mut increment[held.node];
+                let along: f64 = (0..D).map(|d| direction[d] * record[d]).sum();
+                (0..D).for_each(|d| record[d] -= direction[d] * along);
+                react(owner, held.node, direction * along);
+            }
+        }
+        for held in self.constraints.components.iter().filter(|held| held.field == field) {
+            for d in 0..D {
+                if let Some(owner) = held.owner[d] {
+                    let mut taken = SVector::zeros();
+                    taken[d] = std::mem::take(&mut increment[held.node][d]);
+                    react(usize::from(owner), held.node, taken);
+                }
+            }
+        }
+    }
+
     /// Names of the constraints, in order.
     pub fn constraint_names(&self) -> &[String] {
         &self.constraints.names
-    }
-}
-
-fn add_reaction<const D: usize>(
-    reaction: &mut Reaction<D>,
-    position: &SVector<f64, D>,
-    force: &SVector<f64, D>,
-) {
-    reaction.force += force;
-    for (total, part) in reaction.moment.iter_mut().zip(moment_of(position, force)) {
-        *total += part;
     }
 }

@@ -1,10 +1,15 @@
 //! Energy, momentum and the running sums of work and impulse.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::grid::VELOCITY;
+use crate::material::{Material, MaterialState};
+use crate::parameters::Frame;
 use crate::reaction::moment_of;
 use crate::solid::Solid;
+use crate::stencil::PointStencil;
+use crate::tensor::Tensor;
+use crate::transfer::{PointTransfer, with_transfer};
 
 /// Energy of the points (J; per metre of thickness in plane strain), G23.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -12,7 +17,7 @@ pub struct SolidEnergy {
     /// `Σ ½ m v²`. Velocities belong to the middle of the last step, stresses to
     /// its end, so the sum of energies wobbles by a relative `ω Δt/2`.
     pub kinetic: f64,
-    /// `Σ ψ(σ) V`.
+    /// Elastic energy `Σ ψ V0`.
     pub strain: f64,
     /// `-Σ m g·x`, zero at the coordinate origin.
     pub gravity_potential: f64,
@@ -30,8 +35,10 @@ pub struct SolidLedger<const D: usize> {
     pub damping_work: f64,
     /// Impulse of the reactions (N s).
     pub boundary_impulse: SVector<f64, D>,
-    /// Impulse of the external nodal forces (N s).
+    /// Impulse of the external nodal forces, surface loads included (N s).
     pub external_impulse: SVector<f64, D>,
+    /// The part of it from surface loads (N s).
+    pub surface_impulse: SVector<f64, D>,
     /// Impulse of gravity (N s).
     pub gravity_impulse: SVector<f64, D>,
     /// Impulse of local damping (N s).
@@ -51,6 +58,7 @@ impl<const D: usize> Default for SolidLedger<D> {
             damping_work: 0.0,
             boundary_impulse: zero,
             external_impulse: zero,
+            surface_impulse: zero,
             gravity_impulse: zero,
             damping_impulse: zero,
             boundary_angular_impulse: [0.0; 3],
@@ -62,7 +70,7 @@ impl<const D: usize> Default for SolidLedger<D> {
 impl<const D: usize> Solid<D> {
     /// Adds the step just made to the ledger. Called after the boundary
     /// conditions, while nodes hold v^L and the external force is still there.
-    pub(crate) fn record_work(&mut self, dt: f64) {
+    pub(crate) fn record_work(&mut self, dt: f64, surface_force: SVector<f64, D>) {
         let state = &mut self.state;
         let ledger = &mut state.ledger;
         for (reaction, velocity) in state.reactions.iter().zip(&state.constraint_velocity) {
@@ -72,6 +80,9 @@ impl<const D: usize> Solid<D> {
         }
         let gravity = self.parameters.gravity_at(state.time + 0.5 * dt);
         ledger.gravity_impulse += gravity * (self.total_mass * dt);
+        ledger.surface_impulse += surface_force * dt;
+        state.load = gravity * self.total_mass + surface_force;
+        state.point_load = -surface_force;
         for grid in self.fields.iter().map(|field| &field.grid) {
             if !grid.has_external_force {
                 continue;
@@ -89,6 +100,7 @@ impl<const D: usize> Solid<D> {
             ledger.external_work += dt * total[0];
             for d in 0..D {
                 ledger.external_impulse[d] += dt * total[1 + d];
+                state.point_load[d] += total[1 + d];
             }
             accumulate(&mut ledger.external_angular_impulse, &total[4..], dt);
         }
@@ -110,13 +122,22 @@ impl<const D: usize> Solid<D> {
     pub fn body_energy(&self, body: usize) -> SolidEnergy {
         let Some(description) = self.bodies.get(body) else { return SolidEnergy::default() };
         let (points, range) = (&self.state.points, self.body_range(body));
-        let material = description.material.as_material();
+        let material = &description.material;
         let gravity = self.parameters.gravity;
+        let lattice = self.fields[description.field].lattice.as_ref();
         let [kinetic, strain, gravity_potential] = ordered_reduction::sum(range.len(), |k| {
             let p = range.start + k;
+            let (deformation_gradient, stress) = match lattice {
+                Some(lattice) => lattice.seen_by_law(points, p),
+                None => (Tensor::from(&points.deformation_gradient[p]), points.stress[p]),
+            };
             [
                 0.5 * points.mass[p] * points.velocity[p].norm_squared(),
-                points.volume[p] * material.strain_energy_density(&points.stress[p]),
+                points.reference_volume[p]
+                    * material.stored_energy(
+                        &deformation_gradient,
+                        &MaterialState { stress, history: points.history[p] },
+                    ),
                 -points.mass[p] * gravity.dot(&points.position[p]),
             ]
         });
@@ -134,13 +155,41 @@ impl<const D: usize> Solid<D> {
         SVector::from_fn(|d, _| total[d])
     }
 
-    /// Angular momentum of all points about a position (N m s); only z in plane
-    /// strain. FLIP conserves it to the size of a point's box, not to round-off.
+    /// Angular momentum of all points about a position (N m s), with that of the affine
+    /// part of their velocity; only z in plane strain. APIC conserves it to round-off in
+    /// the updated frame, FLIP to the size of a point's box.
     pub fn angular_momentum(&self, about: SVector<f64, D>) -> [f64; 3] {
         let points = &self.state.points;
         ordered_reduction::sum(points.len(), |p| {
-            moment_of(&(points.position[p] - about), &(points.velocity[p] * points.mass[p]))
+            let moment =
+                moment_of(&(points.position[p] - about), &(points.velocity[p] * points.mass[p]));
+            let spin = self.spin(p);
+            std::array::from_fn(|k| moment[k] + spin[k])
         })
+    }
+
+    /// Angular momentum of the affine part of a point's velocity about the point
+    /// (N m s): `m ε : Σ_v S_vp (G d) ⊗ (C d)`, d from the point to the node, G what
+    /// takes d to the current configuration: F in the total frame.
+    fn spin(&self, p: usize) -> [f64; 3] {
+        let points = &self.state.points;
+        let body = &self.bodies[usize::from(points.body[p])];
+        if !body.discretisation.transfer.is_affine() {
+            return [0.0; 3];
+        }
+        let geometry = &self.fields[body.field].grid.geometry;
+        let frame = body.discretisation.frame;
+        let f = &points.deformation_gradient[p];
+        let mut stencil = PointStencil::default();
+        stencil.evaluate(body, geometry, points.site(frame, p), f);
+        let kept = &points.affine_velocity[p];
+        let moments = with_transfer!(body, transfer => transfer.moments(kept, &stencil));
+        let placed = match frame {
+            Frame::Updated => moments,
+            Frame::Total => moments * SMatrix::<f64, D, D>::from_fn(|i, j| f[(j, i)]),
+        };
+        let at = |i: usize, j: usize| if i < D && j < D { placed[(j, i)] } else { 0.0 };
+        [(1, 2), (2, 0), (0, 1)].map(|(i, j)| points.mass[p] * (at(i, j) - at(j, i)))
     }
 
     /// Work and impulse since the start.

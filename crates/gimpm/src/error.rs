@@ -42,6 +42,14 @@ pub enum SolidError {
         /// What is wrong and what is needed.
         problem: String,
     },
+    /// A surface load is inconsistent or finds no face.
+    #[error("load '{load}': {problem}")]
+    Load {
+        /// Name of the load.
+        load: String,
+        /// What is wrong and what is needed.
+        problem: String,
+    },
     /// A material point lies outside the background grid.
     #[error(
         "material point {point} is at {position:?} m at t = {time} s, outside the grid {lower:?} to {upper:?}; enlarge grid_cells or move grid_origin"

@@ -22,11 +22,12 @@ impl<const D: usize> Solid<D> {
             let Grid { geometry, external_force, has_external_force, .. } =
                 &mut self.fields[body.field].grid;
             *has_external_force = true;
-            geometry.scatter_by_slab(offsets, external_force, |range, first, nodes| {
+            body.slabs.scatter(geometry, offsets, external_force, |range, first, nodes| {
                 let mut stencil = PointStencil::default();
                 for p in range {
                     let Some(load) = force.get(p) else { break };
-                    stencil.evaluate(body, geometry, points.site(frame, p));
+                    let f = &points.deformation_gradient[p];
+                    stencil.evaluate(body, geometry, points.site(frame, p), f);
                     for entry in stencil.entries() {
                         nodes[entry.node as usize - first] += load * entry.value;
                     }

@@ -3,9 +3,10 @@
 use nalgebra::SVector;
 
 use crate::error::SolidError;
-use crate::grid::{Grid, GridGeometry};
+use crate::grid::{Grid, GridGeometry, RemapRecord};
 use crate::grid_momentum::{NODES_PER_TASK, NodeTally};
-use crate::parameters::{BodySeed, Frame, SolidParameters};
+use crate::lattice::Lattice;
+use crate::parameters::{BodySeed, Frame, SolidParameters, Transfer};
 
 /// One velocity field.
 ///
@@ -15,15 +16,30 @@ use crate::parameters::{BodySeed, Frame, SolidParameters};
 /// one each when contact between them is computed.
 #[derive(Debug, Clone)]
 pub(crate) struct Field<const D: usize> {
-    pub frame: Frame,
     pub grid: Grid<D>,
     pub tallies: Vec<NodeTally>,
+    /// Components that a constraint holds, a bit each, by node; empty without damping.
+    pub held: Vec<u8>,
+    /// Transfer of its bodies.
+    pub transfer: Transfer,
+    /// Work space of the full mass matrix; empty without it.
+    pub increments: [Vec<RemapRecord>; 2],
+    /// The blocks of points of a body that [`Kernel::Lattice`](crate::kernel::Kernel)
+    /// serves; it has the field to itself.
+    pub lattice: Option<Lattice<D>>,
 }
 
 impl<const D: usize> Field<D> {
-    fn new(frame: Frame, geometry: GridGeometry<D>) -> Self {
+    fn new(transfer: Transfer, geometry: GridGeometry<D>) -> Self {
         let tasks = geometry.node_count().div_ceil(NODES_PER_TASK);
-        Self { frame, grid: Grid::new(geometry), tallies: vec![NodeTally::default(); tasks] }
+        Self {
+            grid: Grid::new(geometry),
+            tallies: vec![NodeTally::default(); tasks],
+            held: Vec::new(),
+            transfer,
+            increments: [Vec::new(), Vec::new()],
+            lattice: None,
+        }
     }
 }
 
@@ -39,15 +55,49 @@ pub(crate) fn fields<const D: usize>(
     let mut field_of = Vec::with_capacity(bodies.len());
     for seed in bodies {
         let index = match seed.discretisation.frame {
+            Frame::Total if parameters.contact.is_some() => {
+                return Err(SolidError::Body {
+                    body: seed.name.clone(),
+                    problem: "it is in the total Lagrangian frame, on a grid of its own, where it meets no other body; \
+                              contact works between bodies in Frame::Updated: choose that frame or leave contact out"
+                        .into(),
+                });
+            }
             Frame::Total => {
-                fields.push(Field::new(Frame::Total, window(&whole, seed)?));
+                fields.push(Field::new(seed.discretisation.transfer, window(&whole, seed)?));
+                fields.len() - 1
+            }
+            Frame::Updated
+                if parameters.contact.is_some()
+                    && matches!(seed.discretisation.transfer, Transfer::Fmpm { order: 2.. }) =>
+            {
+                return Err(SolidError::Body {
+                    body: seed.name.clone(),
+                    problem:
+                        "the increments of Transfer::Fmpm above order 1 know nothing of contact; \
+                              choose Flip, Apic or Tpic, or leave contact out"
+                            .into(),
+                });
+            }
+            Frame::Updated if parameters.contact.is_some() => {
+                fields.push(Field::new(seed.discretisation.transfer, whole.clone()));
                 fields.len() - 1
             }
             Frame::Updated => *shared.get_or_insert_with(|| {
-                fields.push(Field::new(Frame::Updated, whole.clone()));
+                fields.push(Field::new(seed.discretisation.transfer, whole.clone()));
                 fields.len() - 1
             }),
         };
+        if fields[index].transfer != seed.discretisation.transfer {
+            return Err(SolidError::Body {
+                body: seed.name.clone(),
+                problem: format!(
+                    "its transfer is {:?}, but a body that shares its velocity field has {:?}; bodies that stick need one transfer: \
+                     give both the same, or separate them by contact or Frame::Total",
+                    seed.discretisation.transfer, fields[index].transfer
+                ),
+            });
+        }
         field_of.push(index);
     }
     Ok((fields, field_of))

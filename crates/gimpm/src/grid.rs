@@ -1,33 +1,24 @@
-//! The background grid: node records, numbering, slabs for threads.
+//! The background grid: node records and numbering.
 //!
 //! Nodes are stored x fastest. One layer of nodes below the box of points and
-//! two above it take the weights of points next to the box's faces. Cells are
-//! grouped into slabs of [`SLAB`] layers along the slowest axis: the points of
-//! one slab reach [`SLAB_PLANES`] node planes, and slabs of one colour (every
-//! second one) reach disjoint planes, so the slabs of a colour are scattered in
-//! parallel, the colours one after the other. The order of additions on a node
-//! never depends on the number of threads.
-
-use std::ops::Range;
+//! two above it take the weights of points next to the box's faces.
 
 use nalgebra::SVector;
 use rayon::prelude::*;
 
 use crate::grid_momentum::NODES_PER_TASK;
-use crate::shape::ShapeFunction;
+use crate::lanes::{BLOCK, Lanes};
+use crate::records::Records;
+use crate::shape::{Linear, ShapeFunction};
 
-/// Cell layers in a slab.
-pub(crate) const SLAB: usize = 4;
-/// Node planes that the points of a slab may touch: its own `SLAB + 1`, one more
-/// on each side for the width of a point, and one for half a cell of drift.
-pub(crate) const SLAB_PLANES: usize = 2 * SLAB;
 /// Nodes below the first cell.
-const GHOST_BELOW: usize = 1;
+pub(crate) const GHOST_BELOW: usize = 1;
 /// Nodes in excess of cells along an axis: the closing node and the ghosts.
 const EXTRA_NODES: usize = 4;
 
-/// One node, one cache line: `[m, p, p, p, f, f, f, 0]` (mass, momentum, internal
-/// force) during the scatter, then `[m, v_L, v_L, v_L, a, a, a, 0]`.
+/// One node, one cache line: `[m, p, p, p, f, f, f, _]` (mass, momentum, internal
+/// force) during the scatter, then `[m, v_L, v_L, v_L, a, a, a, _]`; the last entry is
+/// padding of any value.
 pub(crate) type NodeRecord = [f64; 8];
 /// First velocity (or momentum) entry of a [`NodeRecord`].
 pub(crate) const VELOCITY: usize = 1;
@@ -74,10 +65,6 @@ impl<const D: usize> GridGeometry<D> {
         self.nodes.iter().product()
     }
 
-    pub fn cell_count(&self) -> usize {
-        self.cells.iter().product()
-    }
-
     /// Upper corner of the box of points (m).
     pub fn upper(&self) -> SVector<f64, D> {
         SVector::from_fn(|d, _| self.origin[d] + self.cells[d] as f64 * self.spacing)
@@ -88,14 +75,16 @@ impl<const D: usize> GridGeometry<D> {
         self.stride[D - 1]
     }
 
-    pub fn slab_count(&self) -> usize {
-        self.cells[D - 1].div_ceil(SLAB)
-    }
-
     /// Coordinate along axis `d` in cells from the origin.
     #[inline(always)]
     pub fn coordinate(&self, position: &SVector<f64, D>, d: usize) -> f64 {
         (position[d] - self.origin[d]) * self.inverse_spacing
+    }
+
+    /// Storage index along axis `d` of a node counted from the origin.
+    pub fn stored_index(&self, index: i64, d: usize) -> Option<usize> {
+        let stored = usize::try_from(index + GHOST_BELOW as i64).ok()?;
+        (stored < self.nodes[d]).then_some(stored)
     }
 
     /// Position of a stored node (m).
@@ -109,6 +98,10 @@ impl<const D: usize> GridGeometry<D> {
         position
     }
 
+    pub fn cell_count(&self) -> usize {
+        self.cells.iter().product()
+    }
+
     /// Cell that holds a position, x fastest; positions outside count to the
     /// nearest cell.
     pub fn cell_of(&self, position: &SVector<f64, D>) -> usize {
@@ -118,14 +111,6 @@ impl<const D: usize> GridGeometry<D> {
             cell = cell * self.cells[d] + along as usize;
         }
         cell
-    }
-
-    /// Whether a point whose first node along the slowest axis is `base` stays
-    /// on the planes that slab `slab` may touch.
-    pub fn slab_holds(&self, slab: usize, base: i32) -> bool {
-        let first_plane = i64::from(base) + GHOST_BELOW as i64;
-        let lowest = (slab * SLAB) as i64;
-        (lowest..=lowest + (SLAB_PLANES - 3) as i64).contains(&first_plane)
     }
 
     /// Weights of a point at `position`.
@@ -147,28 +132,19 @@ impl<const D: usize> GridGeometry<D> {
         stencil
     }
 
-    /// Scatters a body's points to nodes, in parallel and in a fixed order.
+    /// Storage index of the first node of eight points from its place along each axis.
     ///
-    /// `slab_offsets[s]..slab_offsets[s + 1]` are the points of slab `s`.
-    /// `scatter(points, first, records)` adds a range of points to `records`,
-    /// whose entry 0 is node `first`.
-    pub fn scatter_by_slab<R: Send>(
-        &self,
-        slab_offsets: &[usize],
-        records: &mut [R],
-        scatter: impl Fn(Range<usize>, usize, &mut [R]) + Sync,
-    ) {
-        for colour in 0..2 {
-            let skipped = (colour * SLAB * self.plane()).min(records.len());
-            let chunk = SLAB_PLANES * self.plane();
-            records[skipped..].par_chunks_mut(chunk).enumerate().for_each(|(k, nodes)| {
-                let slab = 2 * k + colour;
-                if slab + 1 < slab_offsets.len() {
-                    let points = slab_offsets[slab]..slab_offsets[slab + 1];
-                    scatter(points, skipped + k * chunk, nodes);
-                }
-            });
+    /// The index is put together in floating point, exact below 2^52, and read off the
+    /// mantissa: Rust's own conversion tests for numbers out of range, lane by lane.
+    #[inline(always)]
+    pub fn first_nodes(&self, base: [Lanes; 3]) -> [usize; BLOCK] {
+        const EXACT: f64 = (1_u64 << 52) as f64;
+        let mut index = Lanes::splat(EXACT);
+        for d in 0..D {
+            let below = Lanes::splat(GHOST_BELOW as f64);
+            index = (base[d] + below).mul_add(Lanes::splat(self.stride[d] as f64), index);
         }
+        index.to_array().map(|index| (index.to_bits() & ((1 << 52) - 1)) as usize)
     }
 }
 
@@ -176,8 +152,8 @@ impl<const D: usize> GridGeometry<D> {
 #[derive(Debug, Clone)]
 pub(crate) struct Grid<const D: usize> {
     pub geometry: GridGeometry<D>,
-    pub nodes: Vec<NodeRecord>,
-    pub remapped: Vec<RemapRecord>,
+    pub nodes: Records<NodeRecord>,
+    pub remapped: Records<RemapRecord>,
     /// External force (N) for the next step.
     pub external_force: Vec<SVector<f64, D>>,
     /// Whether any external force was scattered since the last step.
@@ -188,11 +164,28 @@ impl<const D: usize> Grid<D> {
     pub fn new(geometry: GridGeometry<D>) -> Self {
         let count = geometry.node_count();
         Self {
-            nodes: vec![[0.0; 8]; count],
-            remapped: vec![[0.0; 4]; count],
+            nodes: Records::new(count),
+            remapped: Records::new(count),
             external_force: vec![SVector::zeros(); count],
             has_external_force: false,
             geometry,
+        }
+    }
+
+    /// Adds an external force that acts at one place: `f_v += N_v(x) f` with the
+    /// grid's linear functions.
+    pub fn add_at(&mut self, site: &SVector<f64, D>, force: &SVector<f64, D>) {
+        let stencil = self.geometry.stencil(Linear, site);
+        let [sx, sy, sz] = &stencil.value;
+        let stride = self.geometry.stride;
+        for c in 0..stencil.count[2] {
+            for b in 0..stencil.count[1] {
+                for a in 0..stencil.count[0] {
+                    let weight = sx[a] * sy[b] * sz[c];
+                    let node = stencil.first + a * stride[0] + b * stride[1] + c * stride[2];
+                    self.external_force[node] += force * weight;
+                }
+            }
         }
     }
 
@@ -209,7 +202,7 @@ impl<const D: usize> Grid<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::{Linear, Ugimp};
+    use crate::shape::Ugimp;
 
     #[test]
     fn node_positions_match_the_numbering() {
@@ -230,18 +223,6 @@ mod tests {
             }
             let stencil = geometry.stencil(Linear, &SVector::from([x, y]));
             assert!(stencil.first + 2 + 2 * geometry.stride[1] < geometry.node_count());
-        }
-    }
-
-    #[test]
-    fn slabs_hold_half_a_cell_of_drift() {
-        let geometry = GridGeometry::new(1.0, SVector::from([0.0, 0.0]), [3, 12]);
-        for half_width in [0.5, 0.25, 0.01] {
-            let shape = Ugimp::new(half_width);
-            assert!(geometry.slab_holds(1, shape.weights(4.0 - 0.4999).base));
-            assert!(geometry.slab_holds(1, shape.weights(8.0 + 0.4999).base));
-            assert!(!geometry.slab_holds(1, shape.weights(2.4).base));
-            assert!(!geometry.slab_holds(1, shape.weights(10.1).base));
         }
     }
 }

@@ -75,7 +75,7 @@ struct NodeForces<const D: usize> {
 impl<const D: usize> NodeForces<D> {
     fn accelerate(&self, field: &mut Field<D>, dt: f64) {
         let Self { gravity, damping, mass_cut } = *self;
-        let Field { grid, tallies, .. } = field;
+        let Field { grid, tallies, held, .. } = field;
         let external = grid.has_external_force.then_some(&grid.external_force);
         grid.nodes.par_chunks_mut(NODES_PER_TASK).zip(tallies.par_iter_mut()).enumerate().for_each(
             |(task, (records, tally))| {
@@ -90,16 +90,18 @@ impl<const D: usize> NodeForces<D> {
                     }
                     let applied =
                         external.map_or(SVector::zeros(), |force| force[task * NODES_PER_TASK + k]);
+                    let inverse_mass = 1.0 / mass;
                     for d in 0..D {
-                        let velocity = record[VELOCITY + d] / mass;
+                        let velocity = record[VELOCITY + d] * inverse_mass;
                         let mut force = record[ACCELERATION + d] + applied[d] + mass * gravity[d];
-                        if damping > 0.0 {
+                        if damping > 0.0 && held[task * NODES_PER_TASK + k] >> d & 1 == 0 {
                             let opposing = -damping * force.abs() * sign(velocity);
                             force += opposing;
                             tally.damping_force[d] += opposing;
-                            tally.damping_power += opposing * (velocity + dt * force / mass);
+                            tally.damping_power +=
+                                opposing * (velocity + dt * force * inverse_mass);
                         }
-                        let acceleration = force / mass;
+                        let acceleration = force * inverse_mass;
                         record[VELOCITY + d] = velocity + dt * acceleration;
                         record[ACCELERATION + d] = acceleration;
                     }

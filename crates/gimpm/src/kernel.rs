@@ -9,6 +9,8 @@ pub(crate) enum Kernel {
     Plain,
     /// Updated frame, weights that are products over the axes, FLIP.
     Separable,
+    /// Total frame, FLIP.
+    Lattice,
 }
 
 impl Kernel {
@@ -17,6 +19,9 @@ impl Kernel {
         let separable = matches!(chosen.shape, Shape::Linear | Shape::Ugimp);
         match (loops, chosen.frame, chosen.transfer) {
             (Loops::Fast, Frame::Updated, Transfer::Flip) if separable => Self::Separable,
+            (Loops::Fast, Frame::Total, Transfer::Flip) => Self::Lattice,
+            // The mean over a cell needs a cell's points together.
+            (Loops::Plain, Frame::Total, Transfer::Flip) if chosen.mean_dilatation => Self::Lattice,
             _ => Self::Plain,
         }
     }

@@ -24,6 +24,8 @@
 //!     gravity_ramp: 0.0,
 //!     stress_update: StressUpdate::ModifiedLast,
 //!     loops: Loops::Fast,
+//!     contact: None,
+//!     relaxation: None,
 //!     courant_number: 0.5,
 //!     grid_spacing: 0.25,
 //!     grid_origin: SVector::from([-0.25, -0.25]),
@@ -66,15 +68,21 @@
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used))]
 
+mod constitutive;
 mod constraints;
+mod contact;
 mod energy;
 mod error;
 mod external_force;
+mod fastest;
 mod field;
+mod freedom;
 mod grid;
 mod grid_momentum;
 mod grid_to_points;
 mod kernel;
+mod lanes;
+mod lattice;
 mod layout_check;
 mod material;
 mod objective;
@@ -83,9 +91,14 @@ mod plain;
 mod points;
 mod points_to_grid;
 mod reaction;
+mod real;
+mod records;
+mod relaxation;
 mod remap;
+mod reorder;
 mod separable;
 mod shape;
+mod slabs;
 mod solid;
 mod sort;
 mod state;
@@ -93,20 +106,33 @@ mod stencil;
 mod step;
 mod stress_order;
 mod stress_update;
+mod surface_load;
+pub mod symmetric;
+mod tensor;
 mod time_step;
+mod transfer;
 
 pub use constraints::SupportNode;
 pub use energy::{SolidEnergy, SolidLedger};
 pub use error::SolidError;
 pub use grid_momentum::SmallMassReport;
-pub use material::{LinearElastic, Material, MaterialError, MaterialModel};
+pub use material::{
+    DruckerPrager, LinearElastic, Material, MaterialError, MaterialModel, MaterialState,
+    MooneyRivlin, NeoHookean, StVenantKirchhoff, StepMotion, VonMises, conformance, path,
+};
+pub use objective::IncrementalMotion;
 pub use parameters::{
-    BodySeed, Discretisation, Frame, Hold, InitialVelocity, Loops, NodeConstraint, Shape,
-    SolidParameters, StressUpdate, Transfer,
+    BodySeed, Contact, Discretisation, Frame, Hold, InitialVelocity, LoadKind, Loops,
+    NodeConstraint, Relaxation, Shape, SolidParameters, StressUpdate, SurfaceLoad, Transfer,
 };
 pub use points::Points;
 pub use reaction::Reaction;
-pub use shape::{AxisWeights, Linear, ShapeFunction, Ugimp};
+pub use real::Real;
+pub use shape::{
+    AxisWeights, Cpdi, Cpgimp, LaneWeights, Linear, NodeWeight, PointDomain, ShapeFunction, Ugimp,
+};
+
 pub use solid::{Body, Solid};
 pub use state::SolidState;
+pub use tensor::Tensor;
 pub use time_step::TimeStepLimit;

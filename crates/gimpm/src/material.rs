@@ -1,9 +1,29 @@
-//! Constitutive laws: from a strain increment to stress.
+//! Constitutive laws: from the motion of a step to stress.
 
-mod conformance;
+pub mod conformance;
+mod drucker_prager;
+mod elasticity;
+mod finite_strain;
 mod linear_elastic;
+mod model;
+mod mooney_rivlin;
+mod neo_hookean;
+pub mod path;
+mod principal_return;
+mod st_venant_kirchhoff;
+mod von_mises;
 
+pub use drucker_prager::DruckerPrager;
 pub use linear_elastic::LinearElastic;
+pub use model::MaterialModel;
+pub(crate) use model::with_material;
+pub use mooney_rivlin::MooneyRivlin;
+pub use neo_hookean::NeoHookean;
+pub use st_venant_kirchhoff::StVenantKirchhoff;
+pub use von_mises::VonMises;
+
+use crate::real::Real;
+use crate::tensor::Tensor;
 
 /// A material constant outside its range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -19,20 +39,45 @@ pub struct MaterialError {
     pub allowed: &'static str,
 }
 
-/// A constitutive law without memory beyond its stress.
+/// What a step did to the neighbourhood of a point.
 ///
-/// The solver rotates the stress first (G16), so a law sees the strain
-/// increment in the frame of the rotated stress and needs no objective rate of
-/// its own. Tensors are `[xx, yy, zz, xy, yz, xz]`; shear strains are tensor
-/// components (half the engineering ones).
+/// A law of hyperelasticity reads the deformation gradient; a law in rate form
+/// asks for [`StepMotion::incremental`].
+#[derive(Debug, Clone, Copy)]
+pub struct StepMotion<R> {
+    /// Deformation gradient F after the step.
+    pub deformation_gradient: Tensor<R>,
+    /// Displacement gradient of the step, `H = F_{n+1} F_n⁻¹ - I`.
+    pub step_gradient: Tensor<R>,
+}
+
+/// What a law remembers at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MaterialState<R> {
+    /// Cauchy stress (Pa) `[xx, yy, zz, xy, yz, xz]`, tension positive.
+    pub stress: [R; 6],
+    /// Memory of laws that have it. `[0]`: equivalent plastic strain
+    /// `∫ √(⅔ ε̇p:ε̇p) dt`; `[1]`: plastic work per reference volume (J/m³).
+    pub history: [R; 2],
+}
+
+impl<R: Real> MaterialState<R> {
+    /// No stress, no history.
+    pub fn initial() -> Self {
+        Self { stress: [R::splat(0.0); 6], history: [R::splat(0.0); 2] }
+    }
+}
+
+/// A constitutive law, written once over [`Real`] for one point and for several
+/// points at once.
 ///
 /// To add a law: implement this trait, add a variant to [`MaterialModel`], and
-/// run the conformance test on it:
+/// hold it to the conformance check:
 ///
 /// ```
-/// use gimpm::{Material, MaterialError};
+/// use gimpm::{Material, MaterialError, MaterialState, Real, StepMotion, Tensor};
 ///
-/// /// A gas: it resists a change of volume only.
+/// /// A gas: it resists a change of volume only, with pressure `-K ln J/J`.
 /// struct Gas {
 ///     density: f64,
 ///     bulk_modulus: f64,
@@ -45,14 +90,14 @@ pub struct MaterialError {
 ///     fn p_wave_speed(&self) -> f64 {
 ///         (self.bulk_modulus / self.density).sqrt()
 ///     }
-///     fn update_stress(&self, mut stress: [f64; 6], strain: &[f64; 6]) -> [f64; 6] {
-///         let mean = self.bulk_modulus * (strain[0] + strain[1] + strain[2]);
-///         stress[..3].iter_mut().for_each(|s| *s += mean);
-///         stress
+///     fn update<R: Real>(&self, motion: &StepMotion<R>, state: &mut MaterialState<R>) {
+///         let volume = motion.deformation_gradient.determinant();
+///         let (mean, zero) = (volume.ln() / volume * self.bulk_modulus, R::splat(0.0));
+///         state.stress = [mean, mean, mean, zero, zero, zero];
 ///     }
-///     fn strain_energy_density(&self, stress: &[f64; 6]) -> f64 {
-///         let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
-///         mean * mean / (2.0 * self.bulk_modulus)
+///     fn stored_energy<R: Real>(&self, f: &Tensor<R>, _: &MaterialState<R>) -> R {
+///         let logarithm = f.determinant().ln();
+///         logarithm * logarithm * (0.5 * self.bulk_modulus)
 ///     }
 ///     fn validate(&self) -> Result<(), MaterialError> {
 ///         let (value, allowed) = (self.bulk_modulus, "above 0");
@@ -65,51 +110,32 @@ pub struct MaterialError {
 /// gas_conforms();
 /// ```
 pub trait Material: Send + Sync {
+    /// Whether the law reads or writes the history of its points.
+    const HISTORY: bool = true;
+
     /// Density ρ0 in the reference state (kg/m³).
     fn density(&self) -> f64;
 
-    /// Speed of a plane pressure wave (m/s), the fastest signal (G20).
+    /// Speed of a plane pressure wave (m/s) in the reference state, the fastest
+    /// signal (G20).
     fn p_wave_speed(&self) -> f64;
 
-    /// Stress (Pa) after a strain increment (G17).
-    fn update_stress(&self, stress: [f64; 6], strain_increment: &[f64; 6]) -> [f64; 6];
+    /// Stress and history after a step; both come in as they were before it.
+    ///
+    /// Never panics: an impossible motion (`det F <= 0`, a degenerate middle of
+    /// the step) may give NaN or infinity, which the step reports.
+    fn update<R: Real>(&self, motion: &StepMotion<R>, state: &mut MaterialState<R>);
 
-    /// Elastic energy per current volume (J/m³) stored at a stress (G23).
-    fn strain_energy_density(&self, stress: &[f64; 6]) -> f64;
+    /// Elastic energy per reference volume (J/m³), G23.
+    fn stored_energy<R: Real>(
+        &self,
+        deformation_gradient: &Tensor<R>,
+        state: &MaterialState<R>,
+    ) -> R;
 
     /// Checks the constants.
     ///
     /// # Errors
     /// [`MaterialError`] names the constant, its value and its range.
     fn validate(&self) -> Result<(), MaterialError>;
-}
-
-/// The laws a body can choose from. Loops over points match on it once a body.
-#[derive(Debug, Clone, PartialEq)]
-pub enum MaterialModel {
-    /// Isotropic linear elasticity.
-    LinearElastic(LinearElastic),
-}
-
-impl MaterialModel {
-    /// The law behind the trait, for use outside loops over points.
-    pub fn as_material(&self) -> &dyn Material {
-        match self {
-            Self::LinearElastic(material) => material,
-        }
-    }
-
-    /// Checks the constants.
-    ///
-    /// # Errors
-    /// See [`Material::validate`].
-    pub fn validate(&self) -> Result<(), MaterialError> {
-        self.as_material().validate()
-    }
-}
-
-impl From<LinearElastic> for MaterialModel {
-    fn from(material: LinearElastic) -> Self {
-        Self::LinearElastic(material)
-    }
 }

@@ -1,10 +1,10 @@
 //! What describes a solid before it exists: grid, bodies, constraints.
 
 use motion::Motion;
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::error::SolidError;
-use crate::material::MaterialModel;
+use crate::material::{Material, MaterialModel};
 
 /// The configuration in which a body's weights and gradients are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -28,6 +28,12 @@ pub enum Shape {
     /// (uniform GIMP, G1).
     #[default]
     Ugimp,
+    /// The same over a box whose edges stretch with the point's deformation
+    /// gradient along the axes (contiguous-particle GIMP).
+    Cpgimp,
+    /// Grid functions interpolated between the corners of the point's deformed
+    /// parallelogram or parallelepiped (convected particle domain interpolation).
+    Cpdi,
 }
 
 /// How velocity travels from nodes to points and back.
@@ -36,6 +42,18 @@ pub enum Transfer {
     /// Points keep their velocity and take accelerations from nodes (G11).
     #[default]
     Flip,
+    /// Points take the velocity of the nodes and carry its affine part, found from
+    /// its moments (affine particle in cell; Jiang et al. 2015).
+    Apic,
+    /// The same with the affine part found from the velocity's gradient (Taylor
+    /// particle in cell; Nakamura, Matsumura and Mizutani 2023).
+    Tpic,
+    /// Points take the velocity of a grid whose mass matrix is inverted to this
+    /// order (full mass matrix PIC; Nairn and Hammerquist 2021); 1 is PIC.
+    Fmpm {
+        /// Terms of the expansion, at least 1.
+        order: u32,
+    },
 }
 
 /// When in a step the stress is updated.
@@ -72,8 +90,67 @@ pub struct Discretisation {
     /// Transfer of velocity.
     pub transfer: Transfer,
     /// Replaces each point's volume ratio by its mean over the cell, against
-    /// volumetric locking of nearly incompressible bodies (J-bar, [`Frame::Total`] only).
+    /// volumetric locking of nearly incompressible bodies (J-bar; [`Frame::Total`]
+    /// and [`Transfer::Flip`] only, with the vector loops whatever
+    /// [`SolidParameters::loops`] says).
     pub mean_dilatation: bool,
+}
+
+/// Contact between the bodies of a solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Coulomb's friction coefficient μ, at least 0.
+    pub friction: f64,
+}
+
+/// Search for the static state: local damping takes out the motion, and the balance
+/// of forces tells when it is over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relaxation {
+    /// The solid is at rest when the forces on it are balanced to this fraction of
+    /// the larger of loads and reactions, above 0.
+    pub tolerance: f64,
+}
+
+/// A load on the surface of a body.
+///
+/// It acts on the faces of material points that have no neighbour, that look along
+/// one axis, and whose centres lie in a closed box, all in the reference state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceLoad<const D: usize> {
+    /// Name used in messages.
+    pub name: String,
+    /// Index of the body.
+    pub body: usize,
+    /// Axis along which the loaded faces look.
+    pub axis: usize,
+    /// Whether they look towards larger coordinates.
+    pub upper_side: bool,
+    /// Lower corner (m), may be `-inf`.
+    pub lower: SVector<f64, D>,
+    /// Upper corner (m), may be `inf`.
+    pub upper: SVector<f64, D>,
+    /// What acts on them.
+    pub kind: LoadKind<D>,
+    /// Time (s) over which it rises smoothly from nothing; 0: at once.
+    pub ramp: f64,
+}
+
+/// What acts on a loaded surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LoadKind<const D: usize> {
+    /// Force per reference area (Pa), constant in direction.
+    Traction(SVector<f64, D>),
+    /// Pressure (Pa) against the current normal, on the current area.
+    Pressure(f64),
+    /// Pressure of still water, `γ · max(0, level - x_vertical)` at the current
+    /// position; the last axis is vertical.
+    Hydrostatic {
+        /// Level of the water surface (m).
+        level: f64,
+        /// Specific weight γ = ρ g (N/m³).
+        specific_weight: f64,
+    },
 }
 
 /// Grid and time-integration parameters.
@@ -87,6 +164,11 @@ pub struct SolidParameters<const D: usize> {
     pub stress_update: StressUpdate,
     /// Loops over points.
     pub loops: Loops,
+    /// Contact between bodies, which all are in the updated frame then; without it
+    /// they stick.
+    pub contact: Option<Contact>,
+    /// Search for the static state; without it the motion is dynamic.
+    pub relaxation: Option<Relaxation>,
     /// Fraction of the P-wave limit used by `stable_time_step`, above 0, at most 1.
     pub courant_number: f64,
     /// Cell width h (m), the same along every axis.
@@ -104,8 +186,17 @@ pub struct SolidParameters<const D: usize> {
 pub enum InitialVelocity<const D: usize> {
     /// One value for all points (m/s).
     Uniform(SVector<f64, D>),
-    /// One value for each point, in seed order (m/s).
+    /// One value for each point, in seed order (m/s). Points whose transfer carries
+    /// the affine part of the velocity start without one.
     PerPoint(Vec<SVector<f64, D>>),
+    /// `v = L (x - c)`, rigid rotation or uniform straining about a place; points
+    /// whose transfer carries the affine part of the velocity start with it.
+    Affine {
+        /// Velocity gradient L (1/s).
+        gradient: SMatrix<f64, D, D>,
+        /// Place c at rest (m).
+        centre: SVector<f64, D>,
+    },
 }
 
 /// A body: points of equal size and one material.
@@ -187,6 +278,16 @@ impl<const D: usize> SolidParameters<D> {
         check("grid_spacing", h, h.is_finite() && h > 0.0, "finite and above 0")?;
         check("courant_number", courant, courant > 0.0 && courant <= 1.0, "in (0, 1]")?;
         check("damping", self.damping, (0.0..1.0).contains(&self.damping), "in [0, 1)")?;
+        if let Some(Relaxation { tolerance }) = self.relaxation {
+            let inside = tolerance > 0.0 && tolerance < 1.0;
+            check("relaxation.tolerance", tolerance, inside, "above 0 and below 1")?;
+            let damped = self.damping > 0.0;
+            check("damping", self.damping, damped, "above 0 with a relaxation; 0.8 is usual")?;
+        }
+        if let Some(Contact { friction }) = self.contact {
+            let ok = friction.is_finite() && friction >= 0.0;
+            check("contact.friction", friction, ok, "finite and at least 0")?;
+        }
         let ramp = self.gravity_ramp;
         check("gravity_ramp", ramp, ramp.is_finite() && ramp >= 0.0, "finite and at least 0")?;
         let mut nodes = 1.0;
@@ -224,6 +325,17 @@ impl<const D: usize> BodySeed<D> {
                 "point_spacing is {size} m; it must be above 0 and at most the cell width {grid_spacing} m"
             ));
         }
+        if self.discretisation.transfer == (Transfer::Fmpm { order: 0 }) {
+            return problem("the order of its Fmpm transfer is 0; it must be at least 1".into());
+        }
+        let chosen = &self.discretisation;
+        let cellwise = chosen.frame == Frame::Total && chosen.transfer == Transfer::Flip;
+        if chosen.mean_dilatation && !cellwise {
+            return problem(format!(
+                "mean_dilatation needs Frame::Total and Transfer::Flip, it has {:?} and {:?}",
+                chosen.frame, chosen.transfer
+            ));
+        }
         if self.points.is_empty() {
             return problem("it has no points; seed at least one".into());
         }
@@ -239,7 +351,20 @@ impl<const D: usize> BodySeed<D> {
             InitialVelocity::PerPoint(v) if v.iter().flatten().any(|x| !x.is_finite()) => {
                 problem("one of its initial velocities is not finite".into())
             }
+            InitialVelocity::Affine { gradient, centre }
+                if gradient.iter().chain(centre.iter()).any(|x| !x.is_finite()) =>
+            {
+                problem("its initial velocity is not finite".into())
+            }
             _ => Ok(()),
+        }
+    }
+
+    /// Gradient of the initial velocity (1/s), as far as the seed knows it.
+    pub(crate) fn initial_gradient(&self) -> SMatrix<f64, D, D> {
+        match &self.velocity {
+            InitialVelocity::Affine { gradient, .. } => *gradient,
+            InitialVelocity::Uniform(_) | InitialVelocity::PerPoint(_) => SMatrix::zeros(),
         }
     }
 
@@ -248,6 +373,7 @@ impl<const D: usize> BodySeed<D> {
         match &self.velocity {
             InitialVelocity::Uniform(v) => *v,
             InitialVelocity::PerPoint(v) => v[k],
+            InitialVelocity::Affine { gradient, centre } => gradient * (self.points[k] - centre),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! The material points, one array a quantity.
 
-use nalgebra::{Matrix3, SVector};
+use nalgebra::{Matrix3, SMatrix, SVector};
 
 use crate::parameters::Frame;
+use crate::stencil::PointStencil;
+use crate::transfer::PointTransfer;
 
 /// Material points in storage order: body by body, within a body by grid cell.
 ///
@@ -29,9 +31,16 @@ pub struct Points<const D: usize> {
     pub deformation_gradient: Vec<Matrix3<f64>>,
     /// Cauchy stress (Pa) `[xx, yy, zz, xy, yz, xz]`, tension positive.
     pub stress: Vec<[f64; 6]>,
+    /// Memory of the law: equivalent plastic strain, plastic work per reference
+    /// volume (J/m³).
+    pub history: Vec<[f64; 2]>,
+    /// Affine part of the velocity in the coordinates of the weights (x, or X in the
+    /// total frame): its gradient C (1/s), or with APIC on other than linear weights its
+    /// moments `B = Σ S_vp v_v ⊗ (x_v - x_p)` (m²/s). Empty when no body has one.
+    pub affine_velocity: Vec<SMatrix<f64, D, D>>,
 }
 
-/// Applies a method call to every array of one or two sets of points.
+/// Applies a method call to every array that all sets of points have.
 macro_rules! for_each_array {
     ($apply:ident) => {
         $apply!(
@@ -44,7 +53,8 @@ macro_rules! for_each_array {
             reference_volume,
             volume,
             deformation_gradient,
-            stress
+            stress,
+            history
         )
     };
 }
@@ -80,9 +90,27 @@ impl<const D: usize> Points<D> {
         })
     }
 
-    /// Whether all arrays have the same length.
+    /// Gradient (1/s) with which a point gives its velocity to its nodes.
+    #[inline(always)]
+    pub(crate) fn spread<T: PointTransfer>(
+        &self,
+        transfer: T,
+        p: usize,
+        stencil: &PointStencil,
+    ) -> SMatrix<f64, D, D> {
+        if T::AFFINE {
+            transfer.gradient(&self.affine_velocity[p], stencil)
+        } else {
+            SMatrix::zeros()
+        }
+    }
+
+    /// Whether all arrays have the same length; the affine part may be absent.
     pub(crate) fn is_consistent(&self) -> bool {
         let count = self.len();
+        if !(self.affine_velocity.is_empty() || self.affine_velocity.len() == count) {
+            return false;
+        }
         macro_rules! same_length {
             ($($array:ident),*) => { $(self.$array.len() == count)&&* };
         }
@@ -95,17 +123,13 @@ impl<const D: usize> Points<D> {
             ($($array:ident),*) => { $(self.$array.clone_from(&source.$array);)* };
         }
         for_each_array!(copy);
+        self.affine_velocity.clone_from(&source.affine_velocity);
     }
+}
 
-    /// Fills this set with the points of `source` in the order given: entry `k`
-    /// becomes point `order[k]`.
-    pub(crate) fn gather_from(&mut self, source: &Self, order: &[u32]) {
-        macro_rules! gather {
-            ($($array:ident),*) => { $(
-                self.$array.clear();
-                self.$array.extend(order.iter().map(|&k| source.$array[k as usize]));
-            )* };
-        }
-        for_each_array!(gather);
-    }
+/// Takes the first entries off a slice.
+pub(crate) fn front<'a, T>(slice: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (front, rest) = std::mem::take(slice).split_at_mut(count);
+    *slice = rest;
+    front
 }

@@ -41,6 +41,18 @@ pub(crate) fn moment_of<const D: usize>(
     ]
 }
 
+/// Adds a force at a position to a reaction.
+pub(crate) fn add_reaction<const D: usize>(
+    reaction: &mut Reaction<D>,
+    position: &SVector<f64, D>,
+    force: &SVector<f64, D>,
+) {
+    reaction.force += force;
+    for (total, part) in reaction.moment.iter_mut().zip(moment_of(position, force)) {
+        *total += part;
+    }
+}
+
 impl<const D: usize> Solid<D> {
     /// Force (N) that a constraint exerted on the solid in the last step, and its
     /// moment (N m) about a position (only z in plane strain), G10.
@@ -69,9 +81,22 @@ impl<const D: usize> Solid<D> {
         let last = self.state.reactions.clone();
         let supports = self.state.supports.clone();
         let (ledger, small_mass) = (self.state.ledger.clone(), self.small_mass);
+        let waiting: Vec<_> = self
+            .fields
+            .iter()
+            .map(|field| (field.grid.has_external_force, field.grid.external_force.clone()))
+            .collect();
+        self.apply_surface_loads(dt);
         self.points_to_grid();
         self.update_grid_momentum(dt);
         self.constrain_acceleration(dt);
+        self.find_contact();
+        self.exchange_contact_impulses(dt);
+        self.expand_velocity(dt);
+        for (field, (has_external_force, external_force)) in self.fields.iter_mut().zip(waiting) {
+            field.grid.has_external_force = has_external_force;
+            field.grid.external_force = external_force;
+        }
         self.state.ledger = ledger;
         self.small_mass = small_mass;
         self.state.constraint_velocity = velocity;

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::field::Field;
 use crate::grid::{Grid, VELOCITY};
 use crate::grid_momentum::NODES_PER_TASK;
 use crate::kernel::Kernel;
@@ -13,21 +14,47 @@ impl<const D: usize> Solid<D> {
     /// step's start. The strain increment comes from this field, which is what
     /// makes the update "modified": it averages out the large velocities that a
     /// small node mass may have in v_v^L.
+    ///
+    /// The bodies of the vector loops have added their momentum in
+    /// [`Self::grid_to_points`].
     pub(crate) fn remap_momentum(&mut self) {
-        for field in &mut self.fields {
+        self.add_momentum(|kernel| kernel != Kernel::Separable);
+        self.divide_by_mass();
+    }
+
+    /// The same from the velocity of the points at the step's start.
+    pub(crate) fn map_momentum(&mut self) {
+        self.clear_remapped();
+        self.add_momentum(|_| true);
+        self.divide_by_mass();
+    }
+
+    pub(crate) fn clear_remapped(&mut self) {
+        for field in self.fields.iter_mut().filter(|field| field.lattice.is_none()) {
             let remapped = &mut field.grid.remapped;
             remapped.par_chunks_mut(NODES_PER_TASK).for_each(|records| records.fill([0.0; 4]));
         }
-        let points = &self.state.points;
+    }
+
+    fn add_momentum(&mut self, chosen: impl Fn(Kernel) -> bool) {
+        let (points, mass_cut) = (&self.state.points, self.mass_cut);
         for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
-            let grid = &mut self.fields[body.field].grid;
+            let Field { grid, lattice, .. } = &mut self.fields[body.field];
+            if let Some(lattice) = lattice {
+                lattice.remap(points, grid, mass_cut);
+                continue;
+            }
             match body.kernel {
-                Kernel::Plain => plain::remap(body, offsets, points, grid),
+                kernel if !chosen(kernel) => {}
+                Kernel::Plain | Kernel::Lattice => plain::remap(body, offsets, points, grid),
                 Kernel::Separable => separable::remap(body, offsets, points, grid),
             }
         }
+    }
+
+    fn divide_by_mass(&mut self) {
         let mass_cut = self.mass_cut;
-        for field in &mut self.fields {
+        for field in self.fields.iter_mut().filter(|field| field.lattice.is_none()) {
             let Grid { nodes, remapped, .. } = &mut field.grid;
             let masses = nodes.par_chunks(NODES_PER_TASK);
             remapped.par_chunks_mut(NODES_PER_TASK).zip(masses).for_each(|(records, masses)| {

@@ -2,20 +2,27 @@
 
 use std::ops::Range;
 
-use nalgebra::{Matrix3, SVector};
+use nalgebra::{Matrix3, SMatrix, SVector};
 
 use crate::constraints::{Constraints, SupportNode};
+use crate::contact::ContactNodes;
 use crate::error::SolidError;
+use crate::fastest::Fastest;
 use crate::field::{Field, fields};
 use crate::grid_momentum::{RELATIVE_MASS_CUT, SmallMassReport};
 use crate::kernel::Kernel;
-use crate::material::MaterialModel;
+use crate::lattice::Lattice;
+use crate::material::{Material, MaterialModel};
 use crate::parameters::{BodySeed, Discretisation, NodeConstraint, SolidParameters};
 use crate::points::Points;
 use crate::reaction::Reaction;
-use crate::shape::BodyShape;
+use crate::shape::{BodyShape, DeformingShape};
+use crate::slabs::Slabs;
 use crate::sort::SortBuffers;
 use crate::state::SolidState;
+use crate::stencil::PointStencil;
+use crate::surface_load::LoadedSurface;
+use crate::transfer::{PointTransfer, with_transfer};
 
 /// A body: a run of points with one material.
 #[derive(Debug, Clone)]
@@ -31,25 +38,35 @@ pub struct Body {
     /// Index of the velocity field.
     pub(crate) field: usize,
     pub(crate) shape: BodyShape,
+    pub(crate) deforming: Option<DeformingShape>,
+    pub(crate) slabs: Slabs,
     pub(crate) kernel: Kernel,
 }
 
 /// Bodies of material points and their grids; see the crate's example.
 ///
-/// Bodies in the updated frame share one velocity field: where they meet, they stick.
+/// Bodies in the updated frame share one velocity field: where they meet, they
+/// stick, unless [`SolidParameters::contact`] says how they touch.
 #[derive(Debug, Clone)]
 pub struct Solid<const D: usize> {
     pub(crate) parameters: SolidParameters<D>,
     pub(crate) bodies: Vec<Body>,
     pub(crate) constraints: Constraints<D>,
     pub(crate) fields: Vec<Field<D>>,
+    pub(crate) surfaces: Vec<LoadedSurface<D>>,
+    pub(crate) contact: ContactNodes<D>,
     pub(crate) state: SolidState<D>,
-    pub(crate) saved: SolidState<D>,
+    /// The copy that [`Self::save`] made.
+    pub(crate) saved: Option<Box<SolidState<D>>>,
     /// Displacement of each point in the current step (m).
     pub(crate) displacement: Vec<SVector<f64, D>>,
     /// Storage index of each identity.
     pub(crate) index_of: Vec<u32>,
-    pub(crate) sort_buffers: SortBuffers<D>,
+    pub(crate) sort_buffers: SortBuffers,
+    /// Largest squares of a speed (m²/s²) and a displacement (m²) in the current step.
+    pub(crate) fastest: Fastest,
+    /// Whether the last sweep over the points found each on the planes of its slab.
+    pub(crate) layout_holds: bool,
     pub(crate) previous_velocity: Vec<SVector<f64, D>>,
     pub(crate) small_mass: SmallMassReport,
     /// Nodes up to this mass are left out (kg).
@@ -76,10 +93,21 @@ impl<const D: usize> Solid<D> {
         for seed in &bodies {
             seed.validate(parameters.grid_spacing)?;
         }
-        let (fields, field_of) = fields(&parameters, &bodies)?;
+        let (mut fields, field_of) = fields(&parameters, &bodies)?;
         let constraints = Constraints::new(constraints, &fields, &field_of)?;
-        let slabs: Vec<usize> =
-            field_of.iter().map(|&field| fields[field].grid.geometry.slab_count()).collect();
+        if parameters.damping > 0.0 {
+            constraints.mark_held(&mut fields);
+        }
+        let deforming = |seed: &BodySeed<D>| DeformingShape::new(seed, parameters.grid_spacing);
+        let slabs_of = |seed: &BodySeed<D>| match deforming(seed) {
+            Some(_) => Slabs::WIDE,
+            None => Slabs::NARROW,
+        };
+        let slabs: Vec<usize> = bodies
+            .iter()
+            .zip(&field_of)
+            .map(|(seed, &field)| slabs_of(seed).count(&fields[field].grid.geometry))
+            .collect();
         let state = initial_state(&bodies, &constraints, &slabs);
         let count = state.points.len();
         let masses = || state.points.mass.iter().copied();
@@ -87,13 +115,16 @@ impl<const D: usize> Solid<D> {
         let total_mass = masses().sum();
         let wave_speed = bodies
             .iter()
-            .map(|seed| seed.material.as_material().p_wave_speed())
+            .map(|seed| seed.material.p_wave_speed())
             .fold(f64::MIN_POSITIVE, f64::max);
+        let gradients: Vec<_> = bodies.iter().map(BodySeed::initial_gradient).collect();
         let bodies = bodies
             .into_iter()
             .zip(field_of)
             .map(|(seed, field)| Body {
                 shape: BodyShape::new(&seed, parameters.grid_spacing),
+                deforming: deforming(&seed),
+                slabs: slabs_of(&seed),
                 kernel: Kernel::choose(parameters.loops, &seed),
                 field,
                 name: seed.name,
@@ -105,10 +136,14 @@ impl<const D: usize> Solid<D> {
         let mut solid = Self {
             bodies,
             fields,
-            saved: SolidState::default(),
+            surfaces: Vec::new(),
+            contact: ContactNodes::default(),
+            saved: None,
             displacement: vec![SVector::zeros(); count],
             index_of: Vec::new(),
             sort_buffers: SortBuffers::default(),
+            fastest: Fastest::default(),
+            layout_holds: false,
             previous_velocity: Vec::new(),
             small_mass: SmallMassReport::default(),
             mass_cut: if count == 0 { 0.0 } else { RELATIVE_MASS_CUT * lightest },
@@ -119,11 +154,37 @@ impl<const D: usize> Solid<D> {
             constraints,
             state,
         };
+        solid.start_affine_velocity(&gradients);
         solid.sort_points();
+        solid.build_lattices()?;
         solid.check_layout()?;
         solid.state.maximum_speed = solid.measure_maximum_speed();
-        solid.save();
         Ok(solid)
+    }
+
+    /// Gives points the affine part of their seed's velocity, if any body needs one.
+    fn start_affine_velocity(&mut self, gradients: &[SMatrix<f64, D, D>]) {
+        if !self.bodies.iter().any(|body| body.discretisation.transfer.is_affine()) {
+            return;
+        }
+        let points = &self.state.points;
+        let mut stencil = PointStencil::default();
+        let kept = (0..points.len()).map(|p| {
+            let index = usize::from(points.body[p]);
+            let (body, gradient) = (&self.bodies[index], &gradients[index]);
+            let geometry = &self.fields[body.field].grid.geometry;
+            let inside = (0..D).all(|d| {
+                let along = geometry.coordinate(&points.position[p], d);
+                along >= 0.0 && along <= geometry.cells[d] as f64
+            });
+            if !inside {
+                return SMatrix::zeros(); // reported by the layout check
+            }
+            stencil.evaluate(body, geometry, &points.position[p], &Matrix3::identity());
+            with_transfer!(body, transfer => transfer.keep(gradient, &stencil))
+        });
+        let kept = kept.collect();
+        self.state.points.affine_velocity = kept;
     }
 
     /// Grid and time-integration parameters.
@@ -170,17 +231,51 @@ impl<const D: usize> Solid<D> {
 
     /// Largest speed of a point (m/s); NaN if any is.
     pub(crate) fn measure_maximum_speed(&self) -> f64 {
-        largest_norm(&self.state.points.velocity)
+        let velocity = &self.state.points.velocity;
+        Fastest::of(velocity, velocity).speed_squared.sqrt()
     }
 
-    /// Largest displacement of a point in the last step (m).
-    pub(crate) fn measure_maximum_displacement(&self) -> f64 {
-        largest_norm(&self.displacement)
+    /// Largest speed of a point after (5), or which point's speed is not finite.
+    pub(crate) fn checked_maximum_speed(&self) -> Result<f64, SolidError> {
+        let speed = self.fastest.speed_squared.sqrt();
+        if speed.is_finite() {
+            return Ok(speed);
+        }
+        let points = &self.state.points;
+        let lost = points.velocity.iter().position(|v| !v.norm_squared().is_finite());
+        let point = lost.map_or(0, |p| points.id[p]);
+        Err(SolidError::NonFinite { point, quantity: "velocity", time: self.state.time })
     }
-}
 
-fn largest_norm<const D: usize>(vectors: &[SVector<f64, D>]) -> f64 {
-    ordered_reduction::maximum(vectors.len(), |p| vectors[p].norm_squared()).map_or(0.0, f64::sqrt)
+    /// Cuts the points of the bodies that [`Kernel::Lattice`] serves into blocks.
+    ///
+    /// # Errors
+    /// [`SolidError::StateMismatch`] when the points are not in the order that
+    /// [`Self::sort_points`] gives.
+    pub(crate) fn build_lattices(&mut self) -> Result<(), SolidError> {
+        for (body, offsets) in self.bodies.iter().zip(&self.state.slab_offsets) {
+            if body.kernel != Kernel::Lattice {
+                continue;
+            }
+            let (start, end) = (offsets[0], offsets[offsets.len() - 1]);
+            let Field { grid, lattice, .. } = &mut self.fields[body.field];
+            let mean_dilatation = body.discretisation.mean_dilatation;
+            let points = &self.state.points;
+            let Some(built) = Lattice::new(&grid.geometry, points, start, end, mean_dilatation)
+            else {
+                let what = "points of a total Lagrangian body sorted by cell";
+                return Err(SolidError::StateMismatch { what, found: 0, expected: end - start });
+            };
+            *lattice = Some(built);
+        }
+        Ok(())
+    }
+
+    /// Makes the next step compute from the points what it would take over from the
+    /// last one. To be called after every change of the points outside a step.
+    pub(crate) fn forget_carried(&mut self) {
+        self.fields.iter_mut().filter_map(|field| field.lattice.as_mut()).for_each(Lattice::forget);
+    }
 }
 
 /// Points at rest in their reference state, body by body.
@@ -193,7 +288,7 @@ fn initial_state<const D: usize>(
     let mut slab_offsets = Vec::new();
     for (index, seed) in bodies.iter().enumerate() {
         let volume = seed.point_spacing.powi(D as i32);
-        let mass = seed.material.as_material().density() * volume;
+        let mass = seed.material.density() * volume;
         let start = points.len();
         for (k, position) in seed.points.iter().enumerate() {
             points.id.push((start + k) as u32);
@@ -206,6 +301,7 @@ fn initial_state<const D: usize>(
             points.volume.push(volume);
             points.deformation_gradient.push(Matrix3::identity());
             points.stress.push([0.0; 6]);
+            points.history.push([0.0; 2]);
         }
         let mut offsets = vec![points.len(); slabs[index] + 1];
         offsets[0] = start;

@@ -10,7 +10,7 @@ use crate::reaction::Reaction;
 use crate::solid::Solid;
 
 /// The complete state: restoring it continues a run bit for bit.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SolidState<const D: usize> {
     /// Time (s).
     pub time: f64,
@@ -31,8 +31,31 @@ pub struct SolidState<const D: usize> {
     pub reactions: Vec<Reaction<D>>,
     /// Nodes held along a direction.
     pub supports: Vec<SupportNode>,
+    /// Gravity and surface loads in the last step (N).
+    pub load: SVector<f64, D>,
+    /// The forces on points scattered for it (N).
+    pub point_load: SVector<f64, D>,
     /// Sums of work and impulse since the start.
     pub ledger: SolidLedger<D>,
+}
+
+impl<const D: usize> Default for SolidState<D> {
+    fn default() -> Self {
+        Self {
+            time: 0.0,
+            steps: 0,
+            points: Points::default(),
+            slab_offsets: Vec::new(),
+            drift: 0.0,
+            maximum_speed: 0.0,
+            constraint_velocity: Vec::new(),
+            reactions: Vec::new(),
+            supports: Vec::new(),
+            load: SVector::zeros(),
+            point_load: SVector::zeros(),
+            ledger: SolidLedger::default(),
+        }
+    }
 }
 
 impl<const D: usize> SolidState<D> {
@@ -47,6 +70,8 @@ impl<const D: usize> SolidState<D> {
         self.constraint_velocity.clone_from(&source.constraint_velocity);
         self.reactions.clone_from(&source.reactions);
         self.supports.clone_from(&source.supports);
+        self.load = source.load;
+        self.point_load = source.point_load;
         self.ledger = source.ledger.clone();
     }
 }
@@ -67,8 +92,9 @@ impl<const D: usize> Solid<D> {
     pub fn restore_state(&mut self, state: SolidState<D>) -> Result<(), SolidError> {
         self.check_state(&state)?;
         let replaced = std::mem::replace(&mut self.state, state);
-        if let Err(error) = self.check_layout() {
+        if let Err(error) = self.check_layout().and_then(|()| self.build_lattices()) {
             self.state = replaced;
+            self.build_lattices()?;
             return Err(error);
         }
         self.clear_external_force();
@@ -77,15 +103,18 @@ impl<const D: usize> Solid<D> {
         Ok(())
     }
 
-    /// Keeps one copy of the state in memory, in buffers that are reused.
+    /// Keeps one copy of the state in memory, in buffers that are reused: from the first
+    /// call on, the points take twice their memory.
     pub fn save(&mut self) {
-        self.saved.copy_from(&self.state);
+        self.saved.get_or_insert_default().copy_from(&self.state);
     }
 
-    /// Returns to the state of the last [`Self::save`] (or of the start) and
-    /// forgets external forces.
+    /// Returns to the state of the last [`Self::save`] and forgets external forces;
+    /// without one it does nothing.
     pub fn restore(&mut self) {
-        self.state.copy_from(&self.saved);
+        let Some(saved) = &self.saved else { return };
+        self.state.copy_from(saved);
+        self.forget_carried();
         self.clear_external_force();
         self.index_points();
         self.failure = None;
@@ -97,6 +126,11 @@ impl<const D: usize> Solid<D> {
         let counts = [
             ("material points", points.len(), self.state.points.len()),
             ("points in slabs", last, self.state.points.len()),
+            (
+                "affine velocities",
+                points.affine_velocity.len(),
+                self.state.points.affine_velocity.len(),
+            ),
             ("bodies", state.slab_offsets.len(), self.bodies.len()),
             ("constraints", state.constraint_velocity.len(), self.constraints.names.len()),
             ("reactions", state.reactions.len(), self.constraints.names.len()),

@@ -1,12 +1,12 @@
 //! The nodes of one point as a list: the form that fits every frame and shape.
 
-use nalgebra::SVector;
+use nalgebra::{Matrix3, SVector};
 
-use crate::grid::GridGeometry;
-use crate::shape::{ShapeFunction, with_shape};
+use crate::grid::{GHOST_BELOW, GridGeometry};
+use crate::shape::{NodeWeight, PointDomain, with_domain};
 use crate::solid::Body;
 
-/// Most nodes a point can have: eight corners with eight nodes each.
+/// Most nodes a point can have: four an axis.
 const CAPACITY: usize = 64;
 
 /// Weight of one node.
@@ -18,6 +18,8 @@ pub(crate) struct Entry {
     pub value: f64,
     /// ∇S_vp (1/m), with respect to x in the updated frame, to X in the total one.
     pub gradient: [f64; 3],
+    /// From the point to the node (m), in the same configuration.
+    pub offset: [f64; 3],
 }
 
 /// Nodes of a point.
@@ -29,7 +31,7 @@ pub(crate) struct PointStencil {
 
 impl Default for PointStencil {
     fn default() -> Self {
-        let none = Entry { node: 0, value: 0.0, gradient: [0.0; 3] };
+        let none = Entry { node: 0, value: 0.0, gradient: [0.0; 3], offset: [0.0; 3] };
         Self { count: 0, entries: [none; CAPACITY] }
     }
 }
@@ -41,46 +43,80 @@ impl PointStencil {
         &self.entries[..self.count]
     }
 
-    /// Evaluates the weights of a point at its site.
+    /// Evaluates the weights of a point at its site, with its deformation gradient.
     pub fn evaluate<const D: usize>(
         &mut self,
         body: &Body,
         geometry: &GridGeometry<D>,
         site: &SVector<f64, D>,
+        deformation_gradient: &Matrix3<f64>,
     ) {
-        with_shape!(body, shape => self.tensor_product(shape, geometry, site));
+        let x = SVector::from_fn(|d, _| geometry.coordinate(site, d));
+        self.count = 0;
+        with_domain!(body, domain => {
+            domain.for_each_weight(&x, deformation_gradient, |weight| {
+                self.push(geometry, &x, &weight);
+            });
+        });
     }
 
-    /// `S_vp = Π_d S(x_d)` (G4).
-    fn tensor_product<const D: usize>(
+    #[inline(always)]
+    fn push<const D: usize>(
         &mut self,
-        shape: impl ShapeFunction,
         geometry: &GridGeometry<D>,
-        site: &SVector<f64, D>,
+        x: &SVector<f64, D>,
+        weight: &NodeWeight<D>,
     ) {
-        let stencil = geometry.stencil(shape, site);
-        let [sx, sy, sz] = &stencil.value;
-        let [gx, gy, gz] = stencil.gradient.map(|axis| axis.map(|g| g * geometry.inverse_spacing));
-        self.count = 0;
-        for c in 0..stencil.count[2] {
-            for b in 0..stencil.count[1] {
-                for a in 0..stencil.count[0] {
-                    let node = stencil.first
-                        + a * geometry.stride[0]
-                        + b * geometry.stride[1]
-                        + c * geometry.stride[2];
-                    self.entries[self.count] = Entry {
-                        node: node as u32,
-                        value: sx[a] * sy[b] * sz[c],
-                        gradient: [
-                            gx[a] * sy[b] * sz[c],
-                            sx[a] * gy[b] * sz[c],
-                            sx[a] * sy[b] * gz[c],
-                        ],
-                    };
-                    self.count += 1;
+        let (mut node, mut offset) = (0, [0.0; 3]);
+        for d in 0..D {
+            node += (weight.node[d] + GHOST_BELOW as i32) as usize * geometry.stride[d];
+            offset[d] = geometry.spacing * (f64::from(weight.node[d]) - x[d]);
+        }
+        self.entries[self.count] = Entry {
+            node: node as u32,
+            value: weight.value,
+            gradient: weight.gradient.map(|g| g * geometry.inverse_spacing),
+            offset,
+        };
+        self.count += 1;
+    }
+
+    /// Second moments of the weights about the point, `D_p = Σ_v S_vp d ⊗ d` (m²),
+    /// with d from the point to the node; their mean along the missing
+    /// axis of a plane.
+    pub fn second_moments<const D: usize>(&self) -> Matrix3<f64> {
+        let mut moments = Matrix3::zeros();
+        for entry in self.entries() {
+            for i in 0..D {
+                for j in 0..D {
+                    moments[(i, j)] += entry.value * entry.offset[i] * entry.offset[j];
                 }
             }
         }
+        if D == 2 {
+            moments[(2, 2)] = 0.5 * (moments[(0, 0)] + moments[(1, 1)]);
+        }
+        moments
+    }
+}
+
+#[cfg(test)]
+impl PointStencil {
+    /// Linear weights of a place in a plane cell of width `h`, nodes numbered 0 to 3.
+    pub fn of_cell(place: [f64; 2], h: f64) -> Self {
+        let mut stencil = Self::default();
+        for node in 0..4_u32 {
+            let upper = [f64::from(node & 1), f64::from(node >> 1)];
+            let weight = [0, 1].map(|d| 1.0 - (upper[d] - place[d]).abs());
+            let slope = [0, 1].map(|d| (2.0 * upper[d] - 1.0) / h);
+            stencil.entries[node as usize] = Entry {
+                node,
+                value: weight[0] * weight[1],
+                gradient: [slope[0] * weight[1], weight[0] * slope[1], 0.0],
+                offset: [h * (upper[0] - place[0]), h * (upper[1] - place[1]), 0.0],
+            };
+        }
+        stencil.count = 4;
+        stencil
     }
 }

@@ -19,10 +19,14 @@ impl<const D: usize> Solid<D> {
         self.check_time_step(dt)?;
         let order = self.parameters.stress_update;
         let strained = if order == StressUpdate::First { self.strain_first(dt) } else { Ok(()) };
+        let surface_force = self.apply_surface_loads(dt);
         self.points_to_grid(); //              (1) mass and momentum, (2) internal force
         self.update_grid_momentum(dt); //      (3) a_v, (4) v_v^L
         self.constrain_acceleration(dt); //    boundary conditions on a_v and v_v^L
-        self.record_work(dt);
+        self.find_contact();
+        self.exchange_contact_impulses(dt); // contact on a_v and v_v^L
+        self.expand_velocity(dt); //           v^(k) by the full mass matrix, if asked for
+        self.record_work(dt, surface_force);
         self.grid_to_points(dt); //            (5) v_p, (6) displacement of x_p
         let stressed = strained.and_then(|()| match order {
             StressUpdate::ModifiedLast => self.strain_modified_last(dt),
@@ -34,21 +38,26 @@ impl<const D: usize> Solid<D> {
         outcome
     }
 
-    /// (7) v_v from the new v_p, boundary conditions again, (8) strain, (9) stress.
+    /// (7) v_v from the new v_p, boundary conditions and contact again, (8) strain, (9) stress.
     fn strain_modified_last(&mut self, dt: f64) -> Result<(), SolidError> {
         self.remap_momentum();
         self.constrain_remapped_velocity();
-        self.update_stress(dt)
+        self.separate_remapped_velocity(dt);
+        self.expand_remapped_velocity();
+        self.update_stress(dt, true)
     }
 
-    /// x_p moves by (6); clock, speed bound, loads used up, layout still valid.
+    /// Clock, speed bound, loads used up, layout still valid; x_p moves by (6) if it has
+    /// not moved with the stress update.
     fn finish_step(&mut self, dt: f64) -> Result<(), SolidError> {
-        self.move_points();
+        if self.parameters.stress_update == StressUpdate::First {
+            self.move_points();
+        }
         self.state.time += dt;
         self.state.steps += 1;
-        self.state.maximum_speed = self.measure_maximum_speed();
-        self.state.drift += self.measure_maximum_displacement();
+        self.state.maximum_speed = self.checked_maximum_speed()?;
+        self.state.drift += self.fastest.displacement_squared.sqrt();
         self.clear_external_force();
-        self.check_layout()
+        if self.layout_holds { Ok(()) } else { self.check_layout() }
     }
 }

@@ -9,15 +9,18 @@ impl<const D: usize> Solid<D> {
     /// section 2). The weights are those of the step's start in every order.
     pub(crate) fn strain_first(&mut self, dt: f64) -> Result<(), SolidError> {
         self.points_to_grid();
-        self.remap_momentum();
+        self.find_contact();
+        self.map_momentum();
         self.constrain_remapped_velocity();
-        self.update_stress(dt)
+        self.separate_remapped_velocity(dt);
+        self.expand_remapped_velocity();
+        self.update_stress(dt, false)
     }
 
     /// (8) and (9) at its end from the grid's own v_v^L, without (7) (update
     /// stress last; Sulsky, Chen and Schreyer 1994).
     pub(crate) fn strain_last(&mut self, dt: f64) -> Result<(), SolidError> {
         self.take_grid_velocity();
-        self.update_stress(dt)
+        self.update_stress(dt, true)
     }
 }

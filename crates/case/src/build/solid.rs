@@ -1,21 +1,20 @@
 //! Material points.
 
 use gimpm::{
-    BodySeed, Discretisation, Hold, InitialVelocity, Loops, NodeConstraint, Shape, SolidParameters,
-    StressUpdate,
+    BodySeed, Hold, InitialVelocity, LoadKind, Loops, Material, NodeConstraint, SolidParameters,
+    SurfaceLoad,
 };
 use nalgebra::SVector;
 
 use crate::CaseError;
-use crate::format::ShapeFunctionForm;
 use crate::geometry::Point;
 use crate::lattice::each;
 use crate::model::SolidModel;
-use crate::plan::{BodyPlan, BoundaryPlan, Plan, SolidPlan};
+use crate::plan::{BodyPlan, BoundaryPlan, HoldPlan, LoadKindPlan, LoadPlan, Plan, SolidPlan};
 use crate::source::Source;
 use crate::validate::short;
 
-use super::{extent_text, shrink};
+use super::{extent_text, selection, shrink};
 
 /// Seeds all bodies.
 pub(crate) fn seed<const D: usize>(
@@ -26,14 +25,17 @@ pub(crate) fn seed<const D: usize>(
 ) -> Result<SolidModel<D>, CaseError> {
     let mut bodies = Vec::with_capacity(solid.bodies.len());
     for (index, body) in solid.bodies.iter().enumerate() {
-        let points = points(body);
+        let cells = cells(body);
+        let points: Vec<Point> = cells.iter().map(|cell| body.lattice.center(*cell)).collect();
+        let path = format!("solid.bodies[{index}]");
         if points.is_empty() {
             let message = format!("no material point fits into body `{}`", body.name);
             let help = "enlarge it or use a smaller `solid.grid_spacing`";
             return Err(source
-                .error_at_path(&format!("solid.bodies[{index}].shape"), message)
+                .error_at_path(&format!("{path}.shape"), message)
                 .with_help(Some(help.into())));
         }
+        selection::held_nodes(body, &points, solid, &path, source)?;
         let velocity = velocity(body, &points);
         let points: Vec<SVector<f64, D>> = points.iter().map(shrink).collect();
         notes.push(format!(
@@ -42,19 +44,15 @@ pub(crate) fn seed<const D: usize>(
             points.len(),
             extent_text(&points, solid.point_spacing)
         ));
+        notes.push(method(body, solid));
+        selection::loaded_faces(body, &cells, &path, source, notes)?;
         bodies.push(BodySeed {
             name: body.name.clone(),
-            material: body.material.into(),
+            material: body.material.clone(),
             points,
             velocity,
             point_spacing: solid.point_spacing,
-            discretisation: Discretisation {
-                shape: match solid.shape_function {
-                    ShapeFunctionForm::Ugimp => Shape::Ugimp,
-                    ShapeFunctionForm::Linear => Shape::Linear,
-                },
-                ..Discretisation::default()
-            },
+            discretisation: body.discretisation,
         });
     }
     let constraints = solid
@@ -62,6 +60,12 @@ pub(crate) fn seed<const D: usize>(
         .iter()
         .enumerate()
         .flat_map(|(index, body)| body.boundaries.iter().map(move |held| constraint(index, held)))
+        .collect();
+    let loads = solid
+        .bodies
+        .iter()
+        .enumerate()
+        .flat_map(|(index, body)| body.loads.iter().map(move |load| self::load(index, load)))
         .collect();
     let cells = std::array::from_fn(|axis| solid.cells[axis]);
     let cell_text: Vec<_> = cells.iter().map(usize::to_string).collect();
@@ -72,28 +76,51 @@ pub(crate) fn seed<const D: usize>(
     ));
     let parameters = SolidParameters {
         gravity: shrink(&plan.gravity),
-        gravity_ramp: 0.0,
-        stress_update: StressUpdate::ModifiedLast,
+        gravity_ramp: solid.gravity_ramp,
+        stress_update: solid.stress_update,
         loops: Loops::Fast,
+        contact: solid.contact,
+        relaxation: solid.relaxation,
         courant_number: solid.courant_number,
         grid_spacing: solid.grid.spacing,
         grid_origin: shrink(&solid.grid.origin),
         grid_cells: cells,
         damping: solid.damping,
     };
-    Ok(SolidModel { parameters, bodies, constraints })
+    Ok(SolidModel { parameters, bodies, constraints, loads })
 }
 
-fn points(body: &BodyPlan) -> Vec<Point> {
+/// How a body is computed, and what that allows as time step.
+fn method(body: &BodyPlan, solid: &SolidPlan) -> String {
+    let chosen = &body.discretisation;
+    let transfer = match chosen.transfer {
+        gimpm::Transfer::Fmpm { order } => format!("Fmpm({order})"),
+        other => format!("{other:?}"),
+    };
+    let mean = if chosen.mean_dilatation { ", mean dilatation" } else { "" };
+    let speed = body.material.p_wave_speed();
+    format!(
+        "body `{}`: frame {:?}, shape {:?}, transfer {transfer}{mean}, law {}, time step {:.3e} s \
+         (P-wave speed {} m/s)",
+        body.name,
+        chosen.frame,
+        chosen.shape,
+        body.law,
+        solid.courant_number * solid.grid.spacing / speed,
+        short(speed)
+    )
+}
+
+/// Cells of the body's lattice that hold a point.
+fn cells(body: &BodyPlan) -> Vec<[i64; 3]> {
     let (lower, upper) = body.region.bounds();
     let range = body.lattice.cells(&lower, &upper);
     let is_box = body.region.as_box().is_some();
-    each(&range)
-        .map(|cell| body.lattice.center(cell))
-        .filter(|center| {
-            is_box || body.region.signed_distance(&body.lattice.test_point(center)) < 0.0
-        })
-        .collect()
+    let inside = |cell: &[i64; 3]| {
+        let place = body.lattice.test_point(&body.lattice.center(*cell));
+        is_box || body.region.signed_distance(&place) < 0.0
+    };
+    each(&range).filter(inside).collect()
 }
 
 fn velocity<const D: usize>(body: &BodyPlan, points: &[Point]) -> InitialVelocity<D> {
@@ -112,6 +139,34 @@ fn constraint<const D: usize>(body: usize, boundary: &BoundaryPlan) -> NodeConst
         body,
         lower: shrink(&boundary.lower),
         upper: shrink(&boundary.upper),
-        hold: Hold::Components(std::array::from_fn(|axis| boundary.components[axis].clone())),
+        hold: match &boundary.hold {
+            HoldPlan::Components(components) => {
+                Hold::Components(std::array::from_fn(|axis| components[axis].clone()))
+            }
+            HoldPlan::Normal { direction, motion, one_sided } => Hold::Normal {
+                direction: shrink(direction),
+                motion: motion.clone(),
+                one_sided: *one_sided,
+            },
+        },
+    }
+}
+
+fn load<const D: usize>(body: usize, load: &LoadPlan) -> SurfaceLoad<D> {
+    SurfaceLoad {
+        name: load.name.clone(),
+        body,
+        axis: load.axis,
+        upper_side: load.upper_side,
+        lower: shrink(&load.lower),
+        upper: shrink(&load.upper),
+        kind: match load.kind {
+            LoadKindPlan::Traction(force) => LoadKind::Traction(shrink(&force)),
+            LoadKindPlan::Pressure(pressure) => LoadKind::Pressure(pressure),
+            LoadKindPlan::Hydrostatic { level, specific_weight } => {
+                LoadKind::Hydrostatic { level, specific_weight }
+            }
+        },
+        ramp: load.ramp,
     }
 }

@@ -52,6 +52,13 @@ pub enum GaugeForm {
         /// Where in the undeformed body (m).
         position: VectorForm,
     },
+    /// Displacement (m) and velocity (m/s) of a body's centre of mass.
+    CenterOfMass {
+        /// Name, unique among gauges.
+        name: String,
+        /// Name of the body.
+        of: String,
+    },
     /// Force (N, in 2D N/m) and moment (N m, in 2D N) on a wall or body, or the
     /// reaction of a boundary.
     Force {
@@ -75,6 +82,7 @@ impl GaugeForm {
             | Self::Front { name, .. }
             | Self::Displacement { name, .. }
             | Self::Stress { name, .. }
+            | Self::CenterOfMass { name, .. }
             | Self::Force { name, .. } => name,
         }
     }

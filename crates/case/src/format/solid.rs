@@ -2,7 +2,10 @@
 
 use serde::Deserialize;
 
-use super::{LawForm, ShapeForm, VectorForm};
+use super::{
+    BoundaryForm, ContactForm, FrameForm, LoadForm, MaterialForm, RelaxationForm, ShapeForm,
+    ShapeFunctionForm, StressUpdateForm, TransferForm, VectorForm,
+};
 
 /// The solid: GIMPM bodies on one background grid.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -13,15 +16,34 @@ pub struct SolidForm {
     /// Material points per cell and direction, 1 to 4. Default 2.
     #[serde(default = "points_per_cell")]
     pub points_per_cell: u32,
-    /// Grid shape function. Default `Ugimp`.
+    /// Configuration of all bodies. Default `Total`; `Updated` with `contact`.
     #[serde(default)]
-    pub shape_function: ShapeFunctionForm,
+    pub frame: Option<FrameForm>,
+    /// Grid shape function of all bodies. Default `Ugimp`.
+    #[serde(default)]
+    pub shape_function: Option<ShapeFunctionForm>,
+    /// Transfer of velocity of all bodies. Default `Flip`.
+    #[serde(default)]
+    pub transfer: TransferForm,
+    /// When in a step the stress is updated. Default `Musl`.
+    #[serde(default)]
+    pub stress_update: StressUpdateForm,
+    /// Contact between bodies. Default none: where they meet in the updated frame, they stick.
+    #[serde(default)]
+    pub contact: Option<ContactForm>,
+    /// Search for the static state. Default none: the motion is dynamic.
+    #[serde(default)]
+    pub relaxation: Option<RelaxationForm>,
     /// Factor of the time step, above 0, at most 1. Default 0.5.
     #[serde(default = "solid_courant_number")]
     pub courant_number: f64,
-    /// Local damping, 0 (none, the default) to below 1.
+    /// Local damping, 0 (none) to below 1. Default 0, with `relaxation` 0.8.
     #[serde(default)]
-    pub damping: f64,
+    pub damping: Option<f64>,
+    /// Time over which gravity rises smoothly from nothing in the solid (s).
+    /// Default 0: at once.
+    #[serde(default)]
+    pub gravity_ramp: f64,
     /// Free space around the bodies that the grid covers (m).
     /// Default: three cells or a quarter of the bodies' largest extent, whichever is more.
     #[serde(default)]
@@ -30,27 +52,29 @@ pub struct SolidForm {
     pub bodies: Vec<BodyForm>,
 }
 
-/// Grid shape function.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename = "ShapeFunction")]
-pub enum ShapeFunctionForm {
-    /// Uniform GIMP (Bardenhagen and Kober 2004).
-    #[default]
-    Ugimp,
-    /// Linear (the original MPM).
-    Linear,
-}
-
 /// One body.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Body")]
 pub struct BodyForm {
-    /// Name, unique among walls, bodies and boundaries.
+    /// Name, unique among walls, bodies, boundaries and loads.
     pub name: String,
     /// Where it is.
     pub shape: ShapeForm,
     /// What it is made of.
     pub material: MaterialForm,
+    /// Configuration of this body. Default that of the solid.
+    #[serde(default)]
+    pub frame: Option<FrameForm>,
+    /// Grid shape function of this body. Default that of the solid.
+    #[serde(default)]
+    pub shape_function: Option<ShapeFunctionForm>,
+    /// Transfer of velocity of this body. Default that of the solid.
+    #[serde(default)]
+    pub transfer: Option<TransferForm>,
+    /// Whether the volume change is averaged over each cell (J-bar), against locking of
+    /// nearly incompressible bodies. Default no.
+    #[serde(default)]
+    pub mean_dilatation: bool,
     /// Initial velocity (m/s). Default 0.
     #[serde(default)]
     pub velocity: Option<VectorForm>,
@@ -60,21 +84,9 @@ pub struct BodyForm {
     /// Where it is held or driven. Default nowhere.
     #[serde(default)]
     pub boundaries: Vec<BoundaryForm>,
-}
-
-/// Constitutive law and its constants.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename = "Material")]
-pub enum MaterialForm {
-    /// Isotropic linear elasticity with an objective stress rate.
-    LinearElastic {
-        /// Density (kg/m³), above 0.
-        density: f64,
-        /// Young's modulus E (Pa), above 0.
-        young_modulus: f64,
-        /// Poisson's ratio ν, above -1 and below 0.5.
-        poisson_ratio: f64,
-    },
+    /// Loads on its surface. Default none.
+    #[serde(default)]
+    pub loads: Vec<LoadForm>,
 }
 
 /// Initial velocity that varies over a body.
@@ -94,55 +106,6 @@ pub enum VelocityModeForm {
         amplitude: f64,
         /// Wavelength (m), above 0. A bar clamped at one end has 4 L in mode 1.
         wavelength: f64,
-    },
-}
-
-/// A part of a body that is held or driven.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename = "Boundary")]
-pub struct BoundaryForm {
-    /// Name, unique among walls, bodies and boundaries.
-    pub name: String,
-    /// Which grid nodes it holds.
-    #[serde(rename = "where")]
-    pub location: LocationForm,
-    /// How they move.
-    pub motion: BoundaryMotionForm,
-}
-
-/// Which grid nodes a boundary holds.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename = "Location")]
-pub enum LocationForm {
-    /// All nodes at and beyond a face of the body's bounding box:
-    /// one of `x- x+ y- y+ z- z+`. The face must lie on a grid plane.
-    Face(String),
-    /// All nodes in a closed box.
-    Region {
-        /// Lower corner (m).
-        lower: VectorForm,
-        /// Upper corner (m).
-        upper: VectorForm,
-    },
-}
-
-/// Motion of the nodes of a boundary.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, rename = "BoundaryMotion")]
-pub enum BoundaryMotionForm {
-    /// No component moves.
-    Fixed,
-    /// Component by component; a component left out is free.
-    Driven {
-        /// Law along x.
-        #[serde(default)]
-        x: Option<LawForm>,
-        /// Law along y.
-        #[serde(default)]
-        y: Option<LawForm>,
-        /// Law along z (3D).
-        #[serde(default)]
-        z: Option<LawForm>,
     },
 }
 

@@ -93,8 +93,25 @@ impl<'a> Checker<'a> {
         false
     }
 
-    /// Requires as many finite components as the case has dimensions.
+    /// A position, velocity or acceleration: as many components as the case has
+    /// dimensions, none so large that particles beside it could not be told apart.
     pub(crate) fn vector(&mut self, path: &str, components: &[f64]) -> Option<Point> {
+        let usable = |c: f64| c.abs() <= LARGEST_COMPONENT;
+        self.components(path, components, usable, "a number between -1e7 and 1e7")
+    }
+
+    /// A force per area: as many finite components as the case has dimensions.
+    pub(crate) fn traction(&mut self, path: &str, components: &[f64]) -> Option<Point> {
+        self.components(path, components, f64::is_finite, "a finite number, in Pa")
+    }
+
+    fn components(
+        &mut self,
+        path: &str,
+        components: &[f64],
+        usable: impl Fn(f64) -> bool,
+        allowed: &str,
+    ) -> Option<Point> {
         if components.len() != self.dimension {
             let names = if self.dimension == 2 { "[x, y]" } else { "[x, y, z]" };
             self.problem(
@@ -108,12 +125,11 @@ impl<'a> Checker<'a> {
             );
             return None;
         }
-        let usable = |c: &f64| c.abs() <= LARGEST_COMPONENT;
-        if let Some(index) = components.iter().position(|c| !usable(c)) {
+        if let Some(index) = components.iter().position(|c| !usable(*c)) {
             self.problem(
                 &format!("{path}[{index}]"),
                 format!("this component is {}", components[index]),
-                "it must be a number between -1e7 and 1e7",
+                &format!("it must be {allowed}"),
             );
             return None;
         }

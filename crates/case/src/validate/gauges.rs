@@ -51,7 +51,11 @@ fn kind(
     );
     if of_fluid && parts.fluid.is_none() {
         let message = format!("gauge `{}` measures a fluid, and this case has none", gauge.name());
-        check.problem(path, message, "use Displacement, Stress or Force, or add a fluid");
+        check.problem(
+            path,
+            message,
+            "use Displacement, Stress, CenterOfMass or Force, or add a fluid",
+        );
         return None;
     }
     match gauge {
@@ -82,6 +86,9 @@ fn kind(
         GaugeForm::Stress { position, .. } => {
             in_body(gauge.name(), &format!("{path}.position"), position, parts, check)
                 .map(|(body, position)| GaugeKindPlan::Stress(body, position))
+        }
+        GaugeForm::CenterOfMass { of, .. } => {
+            named_body(of, &format!("{path}.of"), parts, check).map(GaugeKindPlan::CenterOfMass)
         }
         GaugeForm::Force { on, about, .. } => {
             let about = check.vector_or(&format!("{path}.about"), about.as_ref(), Point::zeros());
@@ -141,6 +148,16 @@ fn in_body(
     );
     check.problem(path, message, &help);
     None
+}
+
+fn named_body(of: &str, path: &str, parts: &Parts<'_>, check: &mut Checker<'_>) -> Option<usize> {
+    let bodies = parts.solid.map_or(&[][..], |solid| &solid.bodies);
+    let found = bodies.iter().position(|body| body.name == of);
+    if found.is_none() {
+        let valid: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
+        check.problem(path, format!("there is no body `{of}`"), &suggestion::help(of, &valid));
+    }
+    found
 }
 
 fn target(on: &str, path: &str, parts: &Parts<'_>, check: &mut Checker<'_>) -> Option<ForceTarget> {

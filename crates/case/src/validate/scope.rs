@@ -6,8 +6,8 @@ use crate::format::CaseForm;
 
 use super::Checker;
 
-/// Checks all names of a case. Walls, bodies and boundaries share one list,
-/// since a force gauge refers to any of them.
+/// Checks all names of a case. Walls, bodies, boundaries and loads share one list,
+/// since a force gauge refers to most of them.
 pub(crate) fn names(form: &CaseForm, check: &mut Checker<'_>) {
     let mut blocks = Vec::new();
     for (index, block) in form.fluid.iter().flat_map(|fluid| fluid.blocks.iter().enumerate()) {
@@ -20,6 +20,9 @@ pub(crate) fn names(form: &CaseForm, check: &mut Checker<'_>) {
     for (index, body) in form.solid.iter().flat_map(|solid| solid.bodies.iter().enumerate()) {
         let path = format!("solid.bodies[{index}]");
         bearers.push((format!("{path}.name"), body.name.as_str()));
+        for (inner, load) in body.loads.iter().enumerate() {
+            bearers.push((format!("{path}.loads[{inner}].name"), load.name.as_str()));
+        }
         for (inner, boundary) in body.boundaries.iter().enumerate() {
             bearers.push((format!("{path}.boundaries[{inner}].name"), boundary.name.as_str()));
         }

@@ -1,28 +1,27 @@
 //! The solid: grid, bodies and boundaries.
 
-use gimpm::LinearElastic;
-use motion::Motion;
+use gimpm::Frame;
 
-use crate::format::{
-    BodyForm, BoundaryForm, BoundaryMotionForm, LocationForm, MaterialForm, SolidForm,
-    VelocityModeForm,
-};
+use crate::format::{BodyForm, SolidForm, VelocityModeForm};
 use crate::geometry::{Point, Region, union};
 use crate::lattice::Lattice;
-use crate::plan::{BodyPlan, BoundaryPlan, FluidPlan, ModePlan, SolidPlan};
+use crate::plan::{BodyPlan, FluidPlan, ModePlan, SolidPlan};
 
+use super::boundary::{ON_GRID, face_of, face_on_grid};
 use super::checker::{AXES, FACES, short};
-use super::{Checker, shape, walls};
-
-/// How far a constrained face may miss a grid plane, in cells.
-const ON_GRID: f64 = 1e-6;
+use super::load::Surroundings;
+use super::{Checker, boundary, discretisation, load, material, shape, walls};
 
 /// Checks the solid and resolves it; `None` when something it needs is wrong.
 pub(crate) fn plan(
     form: &SolidForm,
     fluid: Option<&FluidPlan>,
+    gravity: &Point,
+    end_time: f64,
     check: &mut Checker<'_>,
 ) -> Option<SolidPlan> {
+    let contact = discretisation::contact(form, check);
+    let relaxation = discretisation::relaxation(form, fluid.is_some(), check);
     if !parameters(form, check) {
         return None;
     }
@@ -47,6 +46,7 @@ pub(crate) fn plan(
         spacing: form.grid_spacing,
         dimension: check.dimension,
     };
+    let surroundings = Surroundings { gravity: *gravity, fluid, point_spacing };
     let bodies: Vec<BodyPlan> = form
         .bodies
         .iter()
@@ -59,7 +59,7 @@ pub(crate) fn plan(
                 let shape_path = format!("{path}.shape");
                 walls::thick_enough("body", &body.name, &region, &shape_path, fluid, check);
             }
-            self::body(body, region, &grid, point_spacing, &path, check)
+            self::body((body, form), region, &grid, &surroundings, &path, check)
         })
         .collect();
     if bodies.len() < form.bodies.len() {
@@ -68,21 +68,34 @@ pub(crate) fn plan(
     if let Some(fluid) = fluid {
         fine_enough(point_spacing, form, fluid, check);
     }
+    if relaxation.is_some() {
+        discretisation::report_restless(&bodies, end_time, check);
+    }
     let cells = cover(&mut grid, form, &bounds);
     Some(SolidPlan {
         grid,
         cells,
         point_spacing,
-        shape_function: form.shape_function,
+        stress_update: discretisation::stress_update(form.stress_update),
+        contact,
+        relaxation,
         courant_number: form.courant_number,
-        damping: form.damping,
+        damping: damping(form),
+        gravity_ramp: form.gravity_ramp,
         bodies,
     })
 }
 
+/// Damping of a relaxed solid, as usual in dynamic relaxation.
+const RELAXATION_DAMPING: f64 = 0.8;
+
+fn damping(form: &SolidForm) -> f64 {
+    form.damping.unwrap_or(if form.relaxation.is_some() { RELAXATION_DAMPING } else { 0.0 })
+}
+
 fn parameters(form: &SolidForm, check: &mut Checker<'_>) -> bool {
     let mut valid = check.positive("solid.grid_spacing", form.grid_spacing, "m");
-    let (points, courant, damping) = (form.points_per_cell, form.courant_number, form.damping);
+    let (points, courant, damping) = (form.points_per_cell, form.courant_number, damping(form));
     let inside = (1..=4).contains(&points);
     let path = "solid.points_per_cell";
     valid &= check.within(path, f64::from(points), "", inside, "1, 2, 3 or 4");
@@ -90,6 +103,12 @@ fn parameters(form: &SolidForm, check: &mut Checker<'_>) -> bool {
     valid &= check.within("solid.courant_number", courant, "", inside, "above 0 and at most 1");
     let inside = (0.0..1.0).contains(&damping);
     valid &= check.within("solid.damping", damping, "", inside, "at least 0 and below 1");
+    if form.relaxation.is_some() {
+        let allowed = "above 0 where `relaxation` takes out the motion with it; 0.8 is usual";
+        valid &= check.within("solid.damping", damping, "", damping > 0.0, allowed);
+    }
+    let ramp = form.gravity_ramp;
+    valid &= check.within("solid.gravity_ramp", ramp, "s", ramp >= 0.0, "at least 0");
     if let Some(margin) = form.grid_margin {
         valid &= check.within("solid.grid_margin", margin, "m", margin >= 0.0, "at least 0");
     }
@@ -133,25 +152,17 @@ fn anchor(form: &SolidForm, bounds: &[(Point, Point)], dimension: usize) -> Poin
     anchor
 }
 
-fn face_of(boundary: &BoundaryForm) -> Option<(usize, usize)> {
-    match &boundary.location {
-        LocationForm::Face(name) => {
-            FACES.iter().position(|face| face == name).map(|index| (index / 2, index % 2))
-        }
-        LocationForm::Region { .. } => None,
-    }
-}
-
 fn body(
-    form: &BodyForm,
+    (form, solid): (&BodyForm, &SolidForm),
     region: Region,
     grid: &Lattice,
-    point_spacing: f64,
+    surroundings: &Surroundings<'_>,
     path: &str,
     check: &mut Checker<'_>,
 ) -> Option<BodyPlan> {
     let bounds = region.bounds();
-    let material = material(&form.material, path, check);
+    let material = material::plan(&form.material, path, check);
+    let discretisation = discretisation::plan(form, solid, path, check);
     let velocity =
         check.vector_or(&format!("{path}.velocity"), form.velocity.as_ref(), Point::zeros());
     let mode = match &form.velocity_mode {
@@ -161,40 +172,79 @@ fn body(
     // A lattice plane lies on a constrained face, or else on the body's lower face.
     let mut origin = bounds.0;
     let mut boundaries = Vec::with_capacity(form.boundaries.len());
+    let mut constrained = [false; 3];
     for (index, boundary) in form.boundaries.iter().enumerate() {
         let path = format!("{path}.boundaries[{index}]");
         if let Some((axis, side)) = face_of(boundary).filter(|(axis, _)| *axis < check.dimension) {
             origin[axis] = if side == 0 { bounds.0[axis] } else { bounds.1[axis] };
+            constrained[axis] = true;
             face_on_grid(&form.name, (axis, side), bounds, grid, &path, check);
         }
-        if let Some(boundary) = self::boundary(boundary, bounds, grid.spacing, &path, check) {
+        if let Some(boundary) = boundary::plan(boundary, bounds, grid.spacing, &path, check) {
             boundaries.push(boundary);
         }
     }
-    let lattice = Lattice { origin, spacing: point_spacing, dimension: check.dimension };
+    let loads = load::plans(&form.loads, bounds, surroundings, path, check);
+    let spacing = surroundings.point_spacing;
+    let mut lattice = Lattice { origin, spacing, dimension: check.dimension };
+    if discretisation::frame(form, solid) == Frame::Total {
+        let free = constrained.map(|constrained| !constrained);
+        whole_points(form, &region, free, &mut lattice, grid, path, check);
+    }
     report_size(&form.name, &region, &lattice, check);
     (boundaries.len() == form.boundaries.len()).then_some(())?;
     Some(BodyPlan {
         name: form.name.clone(),
         region,
         material: material?,
+        law: form.material.law(),
+        discretisation: discretisation?,
         velocity: velocity?,
         mode: mode?,
         lattice,
         boundaries,
+        loads: loads?,
     })
 }
 
-fn material(form: &MaterialForm, path: &str, check: &mut Checker<'_>) -> Option<LinearElastic> {
-    let MaterialForm::LinearElastic { density, young_modulus, poisson_ratio } = *form;
-    let path = format!("{path}.material");
-    let mut valid = check.positive(&format!("{path}.density"), density, "kg/m³");
-    valid &= check.positive(&format!("{path}.young_modulus"), young_modulus, "Pa");
-    let inside = poisson_ratio > -1.0 && poisson_ratio < 0.5;
-    let allowed = "above -1 and below 0.5 (at 0.5 the material is incompressible)";
-    let field = format!("{path}.poisson_ratio");
-    valid &= check.within(&field, poisson_ratio, "", inside, allowed);
-    valid.then_some(LinearElastic { density, young_modulus, poisson_ratio })
+/// In the total frame cells must hold whole points: on the axes without a constrained
+/// face, which lies on the grid anyway, the lattice of the points must be one of the grid.
+/// A shape without flat faces is filled from the nearest plane; a box must lie on one.
+fn whole_points(
+    form: &BodyForm,
+    region: &Region,
+    free: [bool; 3],
+    lattice: &mut Lattice,
+    grid: &Lattice,
+    path: &str,
+    check: &mut Checker<'_>,
+) {
+    let points = Lattice { spacing: lattice.spacing, ..grid.clone() };
+    for axis in (0..lattice.dimension).filter(|&axis| free[axis]) {
+        let face = lattice.origin[axis];
+        let steps = (face - grid.origin[axis]) / points.spacing;
+        let plane = |n: f64| grid.origin[axis] + n * points.spacing;
+        if region.as_box().is_none() || points.misfit(axis, face) <= ON_GRID * grid.spacing {
+            lattice.origin[axis] = plane(steps.round());
+            continue;
+        }
+        let message = format!(
+            "face {} of body `{}` at {} = {} m cuts the material points that fill the grid (every \
+             {} m, a plane at {} m); a body in the total frame needs whole ones in each cell",
+            FACES[2 * axis],
+            form.name,
+            AXES[axis],
+            short(face),
+            short(points.spacing),
+            short(grid.origin[axis])
+        );
+        let help = format!(
+            "move it to {} or {} m, or give the body `frame: Updated`",
+            short(plane(steps.floor())),
+            short(plane(steps.ceil()))
+        );
+        check.problem(&format!("{path}.shape"), message, &help);
+    }
 }
 
 fn mode_plan(form: &VelocityModeForm, path: &str, check: &mut Checker<'_>) -> Option<ModePlan> {
@@ -211,130 +261,6 @@ fn mode_plan(form: &VelocityModeForm, path: &str, check: &mut Checker<'_>) -> Op
         origin: *origin,
         wavelength: *wavelength,
     })
-}
-
-/// Requires a constrained face on a grid plane.
-fn face_on_grid(
-    body: &str,
-    (axis, side): (usize, usize),
-    bounds: (Point, Point),
-    grid: &Lattice,
-    path: &str,
-    check: &mut Checker<'_>,
-) {
-    let coordinate = if side == 0 { bounds.0[axis] } else { bounds.1[axis] };
-    if grid.misfit(axis, coordinate) <= ON_GRID * grid.spacing {
-        return;
-    }
-    let spacing = grid.spacing;
-    let cells = (coordinate - grid.origin[axis]) / spacing;
-    let planes = [cells.floor(), cells.ceil()].map(|n| short(grid.origin[axis] + n * spacing));
-    let whole = [cells.abs().ceil(), cells.abs().floor()];
-    let fitting = whole
-        .iter()
-        .filter(|n| **n >= 1.0)
-        .map(|n| short((coordinate - grid.origin[axis]).abs() / n))
-        .collect::<Vec<_>>();
-    let message = format!(
-        "face {} of body `{body}` at {} = {} m is not on a plane of the grid (spacing {} m); the \
-         nearest planes are at {} and {} m",
-        FACES[2 * axis + side],
-        AXES[axis],
-        short(coordinate),
-        short(spacing),
-        planes[0],
-        planes[1]
-    );
-    let help = format!(
-        "move the face there, or use a `solid.grid_spacing` of {} m, which fits along {}",
-        fitting.join(" or "),
-        AXES[axis]
-    );
-    check.problem(&format!("{path}.where"), message, &help);
-}
-
-fn boundary(
-    form: &BoundaryForm,
-    bounds: (Point, Point),
-    grid_spacing: f64,
-    path: &str,
-    check: &mut Checker<'_>,
-) -> Option<BoundaryPlan> {
-    let range = match &form.location {
-        LocationForm::Face(name) => {
-            let face = check.face(&format!("{path}.where"), name);
-            face.map(|face| beyond_face(face, bounds, grid_spacing))
-        }
-        LocationForm::Region { lower, upper } => {
-            region(&format!("{path}.where"), lower, upper, check).map(|(lower, upper)| {
-                let slack = Point::repeat(ON_GRID * grid_spacing);
-                (lower - slack, upper + slack)
-            })
-        }
-    };
-    let components = match &form.motion {
-        BoundaryMotionForm::Fixed => {
-            [true, true, check.dimension == 3].map(|held| held.then_some(Motion::Fixed))
-        }
-        BoundaryMotionForm::Driven { x, y, z } => {
-            let mut components = [const { None }; 3];
-            for (axis, component) in [x, y, z].into_iter().enumerate() {
-                let Some(component) = component else { continue };
-                let path = format!("{path}.motion.{}", AXES[axis]);
-                if axis >= check.dimension {
-                    let message = "a case in 2D has no component z".into();
-                    check.problem(&path, message, "leave it out");
-                    return None;
-                }
-                components[axis] = Some(walls::law(&component.motion(), &path, check)?);
-            }
-            components
-        }
-    };
-    if components.iter().all(Option::is_none) {
-        let message = format!("boundary `{}` holds no component", form.name);
-        let help = "name at least one: Driven(x: Fixed), or use Fixed for all";
-        check.problem(&format!("{path}.motion"), message, help);
-        return None;
-    }
-    let (lower, upper) = range?;
-    Some(BoundaryPlan { name: form.name.clone(), lower, upper, components })
-}
-
-/// A closed box that may be flat.
-fn region(
-    path: &str,
-    lower: &[f64],
-    upper: &[f64],
-    check: &mut Checker<'_>,
-) -> Option<(Point, Point)> {
-    let low = check.vector(&format!("{path}.lower"), lower);
-    let high = check.vector(&format!("{path}.upper"), upper);
-    let (low, high) = (low?, high?);
-    if let Some(axis) = (0..check.dimension).find(|&axis| high[axis] < low[axis]) {
-        let message = format!("the upper {} is below the lower one", AXES[axis]);
-        check.problem(&format!("{path}.upper[{axis}]"), message, "swap them");
-        return None;
-    }
-    Some((low, high))
-}
-
-/// All nodes at and beyond a face, sideways to one cell beyond the body.
-fn beyond_face(
-    (axis, side): (usize, usize),
-    (mut lower, mut upper): (Point, Point),
-    grid_spacing: f64,
-) -> (Point, Point) {
-    let slack = 1e-3 * grid_spacing;
-    let face = if side == 0 { lower[axis] + slack } else { upper[axis] - slack };
-    lower.add_scalar_mut(-grid_spacing - slack);
-    upper.add_scalar_mut(grid_spacing + slack);
-    if side == 0 {
-        (lower[axis], upper[axis]) = (f64::NEG_INFINITY, face);
-    } else {
-        (lower[axis], upper[axis]) = (face, f64::INFINITY);
-    }
-    (lower, upper)
 }
 
 /// Tells the size that whole material points give a box.

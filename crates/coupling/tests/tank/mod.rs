@@ -96,6 +96,8 @@ impl Tank {
             gravity_ramp: 0.0,
             stress_update: StressUpdate::ModifiedLast,
             loops: Loops::Fast,
+            contact: None,
+            relaxation: None,
             courant_number: 0.5,
             grid_spacing: 2.0 * dx,
             grid_origin: block.lower - SVector::repeat(2.0 * dx * margin as f64),

@@ -3,6 +3,7 @@
 mod check;
 mod export;
 mod list;
+mod material;
 mod picture;
 mod run;
 mod verify;
@@ -29,6 +30,7 @@ fn carry_out(command: Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::execute(&arguments),
         Command::List { cases } => list::execute(&cases),
         Command::Verify(arguments) => verify::execute(&arguments),
+        Command::Material(arguments) => material::execute(&arguments),
         Command::Export { run, .. } => export::execute(&run),
         Command::Picture { run, frame, out } => picture::execute(&run, frame, &out),
     }

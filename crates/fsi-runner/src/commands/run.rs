@@ -77,6 +77,7 @@ pub fn run_case(case: &Case, folder: RunFolder, arguments: &RunArguments) -> Res
         header: &header,
         case_hash,
         rerun: target,
+        solid_colour: arguments.solid_colour,
         end_time,
         resume: arguments.resume,
     };
@@ -92,7 +93,7 @@ pub fn run_case(case: &Case, folder: RunFolder, arguments: &RunArguments) -> Res
     let extremes = recorder.close()?;
     print!("{}", summary(simulation.as_ref(), &cost, &extremes, &folder, recording.as_deref()));
     match ending {
-        Ending::Finished => Ok(()),
+        Ending::Finished | Ending::Relaxed => Ok(()),
         Ending::Interrupted => Err(Failure::interrupted(format!(
             "interrupted at t = {:.6} s; continue with: fsi-runner run {} --out {} --resume{}",
             simulation.time(),

@@ -9,6 +9,7 @@ use crate::commands::run::run_case;
 use crate::failure::Failure;
 use crate::folder::RunFolder;
 use crate::locate;
+use crate::output::rerun_options::SolidColour;
 use crate::output::run_reader::{Place, RunReader};
 use crate::simulation;
 use crate::verify::{
@@ -117,6 +118,7 @@ impl Prepared {
                 viewer: false,
                 rrd: None,
                 no_rrd: true,
+                solid_colour: SolidColour::default(),
             };
             run_case(&self.case, folder.clone(), &run)?;
         }

@@ -33,6 +33,9 @@ pub struct PointCloud {
     pub fields: Vec<Field>,
 }
 
+/// Name of the field of equivalent plastic strain.
+pub const PLASTIC_STRAIN: &str = "plastic_strain";
+
 /// What the points of a cloud stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CloudKind {
@@ -47,7 +50,7 @@ pub enum CloudKind {
 /// One quantity on all points of a cloud.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// `velocity`, `pressure`, `density`, `stress`, `displacement`, `damage`, …
+    /// `velocity`, `pressure`, `density`, `stress`, `displacement`, `plastic_strain`, …
     pub name: &'static str,
     /// SI unit, e.g. `Pa`.
     pub unit: &'static str,

@@ -27,13 +27,14 @@ pub enum FluidColour {
 }
 
 /// What colours the solids.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[value(rename_all = "kebab-case")]
 pub enum SolidColour {
     /// Von Mises equivalent stress.
     #[default]
     Stress,
-    /// Damage, 0 to 1.
-    Damage,
+    /// Equivalent plastic strain.
+    PlasticStrain,
     /// Length of the displacement.
     Displacement,
 }

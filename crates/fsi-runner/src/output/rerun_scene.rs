@@ -1,7 +1,9 @@
 //! The scene in Rerun: points, walls, gauges and the legend of their colours.
 
 use super::colour::{ColourScale, Rgb, engineering, high_percentile};
-use super::frame::{CloudKind, Frame, PointCloud, RunHeader, magnitudes, von_mises};
+use super::frame::{
+    CloudKind, Frame, PLASTIC_STRAIN, PointCloud, RunHeader, magnitudes, von_mises,
+};
 use super::rerun_options::{FluidColour, Marker, RerunOptions, SolidColour};
 use super::view_camera::Bounds;
 use super::wall_surface;
@@ -39,14 +41,13 @@ impl Scene {
             FluidColour::Pressure => column_pressure(cloud, header),
             FluidColour::Speed => (2.0 * drop_height(cloud, header)).sqrt(),
         });
-        let solid = if options.solid_colour == SolidColour::Damage { 1.0 } else { 0.0 };
         Self {
             dimension: header.dimension,
             point_limit: options.point_limit,
             fluid_colour: options.fluid_colour,
             solid_colour: options.solid_colour,
             fluid: ColourScale::covering(fluid),
-            solid: ColourScale::covering(solid),
+            solid: ColourScale::covering(0.0),
             thinning: 1,
             legend: String::new(),
         }
@@ -174,7 +175,7 @@ impl Scene {
         if has(CloudKind::Solid) {
             let (name, unit) = match self.solid_colour {
                 SolidColour::Stress => ("von Mises stress", "Pa"),
-                SolidColour::Damage => ("damage", "1"),
+                SolidColour::PlasticStrain => ("plastic strain", "1"),
                 SolidColour::Displacement => ("displacement", "m"),
             };
             parts.push(format!("**Solid**: {name} {}", range(self.solid, unit)));
@@ -205,12 +206,12 @@ fn fluid_values(cloud: &PointCloud, choice: FluidColour) -> Vec<f64> {
 fn solid_values(cloud: &PointCloud, choice: SolidColour) -> Vec<f64> {
     let name = match choice {
         SolidColour::Stress => "stress",
-        SolidColour::Damage => "damage",
+        SolidColour::PlasticStrain => PLASTIC_STRAIN,
         SolidColour::Displacement => "displacement",
     };
     cloud.field(name).map_or_else(Vec::new, |field| match choice {
         SolidColour::Stress if field.components == 6 => von_mises(&field.values),
-        SolidColour::Damage => field.values.clone(),
+        SolidColour::PlasticStrain => field.values.clone(),
         SolidColour::Stress | SolidColour::Displacement => {
             magnitudes(&field.values, field.components)
         }

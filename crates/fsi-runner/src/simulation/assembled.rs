@@ -6,7 +6,7 @@ use gimpm::Reaction;
 
 use super::gauges::GaugeBoard;
 use super::sides::{ObservedFluid, ObservedSolid};
-use super::{Counts, Simulation, Totals, clouds, ledger, state};
+use super::{Counts, RelaxationProgress, Simulation, Totals, clouds, ledger, state};
 use crate::failure::Failure;
 use crate::output::checkpoint::Checkpoint;
 use crate::output::frame::{Column, Frame, PointCloud};
@@ -97,6 +97,17 @@ where
         let row = ledger::row(&self.coupled);
         self.coupled.ledger_mut().start_row();
         row
+    }
+
+    fn is_relaxed(&self) -> bool {
+        self.coupled.solid().observed().is_some_and(gimpm::Solid::is_relaxed)
+    }
+
+    fn relaxation(&self) -> Option<RelaxationProgress> {
+        let solid = self.coupled.solid().observed()?;
+        let tolerance = solid.parameters().relaxation?.tolerance;
+        let (out_of_balance, relaxed) = (solid.out_of_balance(), solid.is_relaxed());
+        Some(RelaxationProgress { out_of_balance, tolerance, relaxed })
     }
 
     fn totals(&self) -> Totals {

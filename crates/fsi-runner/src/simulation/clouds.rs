@@ -7,7 +7,7 @@ use gimpm::Solid;
 use nalgebra::SVector;
 use sph::Fluid;
 
-use crate::output::frame::{CloudKind, Field, PointCloud};
+use crate::output::frame::{CloudKind, Field, PLASTIC_STRAIN, PointCloud};
 
 /// A vector of either dimension in space; z = 0 in 2D.
 pub fn in_space<const D: usize>(vector: &SVector<f64, D>) -> [f64; 3] {
@@ -95,7 +95,8 @@ fn walls<const D: usize>(
     })
 }
 
-/// Material points of each body with velocity, displacement and stress.
+/// Material points of each body with velocity, displacement and stress, and with the
+/// equivalent plastic strain where the law has one.
 pub fn bodies<const D: usize>(solid: &Solid<D>) -> Vec<PointCloud> {
     let points = solid.points();
     let body = |(number, body): (usize, &gimpm::Body)| {
@@ -103,32 +104,41 @@ pub fn bodies<const D: usize>(solid: &Solid<D>) -> Vec<PointCloud> {
             order_by_identity(&points.id, |index| usize::from(points.body[index]) == number);
         let displacement =
             |&index: &usize| in_space(&(points.position[index] - points.reference_position[index]));
+        let mut fields = vec![
+            Field {
+                name: "velocity",
+                unit: "m/s",
+                components: 3,
+                values: vectors(&order, &points.velocity),
+            },
+            Field {
+                name: "displacement",
+                unit: "m",
+                components: 3,
+                values: order.iter().flat_map(displacement).collect(),
+            },
+            Field {
+                name: "stress",
+                unit: "Pa",
+                components: 6,
+                values: order.iter().flat_map(|&index| points.stress[index]).collect(),
+            },
+        ];
+        if body.material.has_history() {
+            fields.push(Field {
+                name: PLASTIC_STRAIN,
+                unit: "1",
+                components: 1,
+                values: gathered(&order, |index| points.history[index][0]),
+            });
+        }
         PointCloud {
             name: format!("solid/{}", body.name),
             kind: CloudKind::Solid,
             spacing: body.point_spacing,
             id: gathered(&order, |index| points.id[index]),
             position: gathered(&order, |index| in_space(&points.position[index])),
-            fields: vec![
-                Field {
-                    name: "velocity",
-                    unit: "m/s",
-                    components: 3,
-                    values: vectors(&order, &points.velocity),
-                },
-                Field {
-                    name: "displacement",
-                    unit: "m",
-                    components: 3,
-                    values: order.iter().flat_map(displacement).collect(),
-                },
-                Field {
-                    name: "stress",
-                    unit: "Pa",
-                    components: 6,
-                    values: order.iter().flat_map(|&index| points.stress[index]).collect(),
-                },
-            ],
+            fields,
         }
     };
     solid.bodies().iter().enumerate().map(body).collect()

@@ -66,7 +66,9 @@ impl<const D: usize> GaugeBoard<D> {
             | GaugeKind::Displacement { position, .. }
             | GaugeKind::Stress { position, .. } => Some(in_space(position)),
             GaugeKind::WaterLevel { base, .. } => Some(in_space(base)),
-            GaugeKind::Front { .. } | GaugeKind::Force { .. } => None,
+            GaugeKind::Front { .. } | GaugeKind::CenterOfMass { .. } | GaugeKind::Force { .. } => {
+                None
+            }
         };
         self.gauges
             .iter()
@@ -117,6 +119,11 @@ fn columns<const D: usize>(gauge: &Gauge<D>) -> Vec<Column> {
         GaugeKind::Stress { .. } => {
             STRESSES.iter().map(|name| column(&format!("stress_{name}"), "Pa")).collect()
         }
+        GaugeKind::CenterOfMass { .. } => {
+            let place = axes.iter().map(|axis| column(&format!("displacement_{axis}"), "m"));
+            let speed = axes.iter().map(|axis| column(&format!("velocity_{axis}"), "m/s"));
+            place.chain(speed).collect()
+        }
         GaugeKind::Force { .. } => {
             let forces = axes.iter().map(|axis| column(&format!("force_{axis}"), force));
             let about = if D == 2 { &AXES[2..] } else { &AXES[..] };
@@ -163,6 +170,12 @@ fn read<const D: usize, F, S>(
                 solid.zip(followed).map_or([0.0; 6], |(solid, index)| solid.points().stress[index]);
             row.extend(stress);
         }
+        GaugeKind::CenterOfMass { body } => {
+            let zero = SVector::zeros();
+            let (displacement, velocity) =
+                solid.map_or((zero, zero), |solid| mean_motion(solid, *body));
+            row.extend(displacement.iter().chain(&velocity));
+        }
         GaugeKind::Force { target, about } => {
             let (force, moment) = match *target {
                 ForceTarget::Wall(wall) => fluid.map(|fluid| fluid.wall_force(wall, about)),
@@ -176,6 +189,23 @@ fn read<const D: usize, F, S>(
             row.extend(if D == 2 { &moment[2..] } else { &moment[..] });
         }
     }
+}
+
+/// Displacement (m) and velocity (m/s) of a body's centre of mass.
+fn mean_motion<const D: usize>(
+    solid: &Solid<D>,
+    body: usize,
+) -> (SVector<f64, D>, SVector<f64, D>) {
+    let (points, range) = (solid.points(), solid.body_range(body));
+    let sums = ordered_reduction::sum::<7>(range.len(), |k| {
+        let p = range.start + k;
+        let mass = points.mass[p];
+        let [x, y, z] = in_space(&((points.position[p] - points.reference_position[p]) * mass));
+        let [u, v, w] = in_space(&(points.velocity[p] * mass));
+        [mass, x, y, z, u, v, w]
+    });
+    let mean = |first: usize| SVector::from_fn(|axis, _| sums[first + axis] / sums[0]);
+    (mean(1), mean(4))
 }
 
 /// Force of the fluid on a body and its moment about a point.

@@ -1,11 +1,12 @@
 //! The conservation ledger: one row per gauge time, and the run's totals.
 
 use coupling::{Coupled, FluidSide, SolidSide, count_leaks};
+use gimpm::Solid;
 
 use super::sides::{ObservedFluid, ObservedSolid};
 use crate::output::frame::Column;
 
-const COLUMNS: [(&str, &str); 20] = [
+const COLUMNS: [(&str, &str); 22] = [
     ("fluid.kinetic", "J"),
     ("fluid.potential", "J"),
     ("fluid.compression", "J"),
@@ -22,6 +23,8 @@ const COLUMNS: [(&str, &str); 20] = [
     ("solid.potential", "J"),
     ("solid.boundary_work", "J"),
     ("solid.external_work", "J"),
+    ("solid.plastic_work", "J"),
+    ("solid.out_of_balance", "1"),
     ("coupling.momentum_residual", "1"),
     ("coupling.work_mismatch", "J"),
     ("coupling.leaks", "1"),
@@ -81,9 +84,11 @@ where
                 energy.gravity_potential,
                 ledger.boundary_work,
                 ledger.external_work,
+                plastic_work(solid),
+                solid.out_of_balance(),
             ]);
         }
-        None => row.extend([0.0; 5]),
+        None => row.extend([0.0; 7]),
     }
     let ledger = coupled.ledger();
     row.extend([
@@ -108,6 +113,15 @@ where
         leaks: leaks(coupled),
         removed: coupled.fluid().observed().map_or(0, |fluid| fluid.ledger().removed.count),
     }
+}
+
+/// Work that plastic flow has taken (J).
+fn plastic_work<const D: usize>(solid: &Solid<D>) -> f64 {
+    let points = solid.points();
+    let [work] = ordered_reduction::sum(points.history.len(), |p| {
+        [points.reference_volume[p] * points.history[p][1]]
+    });
+    work
 }
 
 /// Fluid particles nearer than half a spacing to a material point.

@@ -38,6 +38,17 @@ impl std::fmt::Display for Counts {
     }
 }
 
+/// How near a solid that is relaxed is to its static state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RelaxationProgress {
+    /// Unbalanced force over the larger of loads and reactions.
+    pub out_of_balance: f64,
+    /// At or below this the state counts as static.
+    pub tolerance: f64,
+    /// Whether the solid has found it.
+    pub relaxed: bool,
+}
+
 /// What the run loop needs of a built case.
 pub trait Simulation: Send {
     /// Numbers of particles and points now.
@@ -75,6 +86,12 @@ pub trait Simulation: Send {
 
     /// Ledger values now; starts a new row.
     fn ledger_row(&mut self) -> Vec<f64>;
+
+    /// Whether the solid was to be relaxed and has found its static state.
+    fn is_relaxed(&self) -> bool;
+
+    /// How far the search for a static state is, if there is one.
+    fn relaxation(&self) -> Option<RelaxationProgress>;
 
     /// Conservation figures of the whole run for the summary.
     fn totals(&self) -> Totals;
@@ -134,10 +151,12 @@ where
         None => None,
     };
     let solid = match model.solid {
-        Some(solid) => Some(
-            Solid::new(solid.parameters, solid.bodies, solid.constraints)
-                .map_err(Failure::input)?,
-        ),
+        Some(model) => {
+            let mut solid = Solid::new(model.parameters, model.bodies, model.constraints)
+                .map_err(Failure::input)?;
+            solid.set_surface_loads(model.loads).map_err(Failure::input)?;
+            Some(solid)
+        }
         None => None,
     };
     let parameters = model.coupling;

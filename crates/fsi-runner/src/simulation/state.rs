@@ -2,7 +2,7 @@
 
 use coupling::{Coupled, CouplingLedger, FluidSide, SolidSide};
 use gimpm::{Solid, SupportNode};
-use nalgebra::{Matrix3, SVector};
+use nalgebra::{Matrix3, SMatrix, SVector};
 use sph::Fluid;
 
 use super::sides::{ObservedFluid, ObservedSolid};
@@ -186,6 +186,9 @@ fn save_solid<const D: usize>(solid: &Solid<D>, checkpoint: &mut Checkpoint) {
     let gradients = points.deformation_gradient.iter().flatten().copied().collect();
     checkpoint.reals.insert("solid.deformation_gradient".into(), gradients);
     checkpoint.reals.insert("solid.stress".into(), points.stress.concat());
+    let affine = points.affine_velocity.iter().flatten().copied().collect();
+    checkpoint.reals.insert("solid.affine_velocity".into(), affine);
+    checkpoint.reals.insert("solid.history".into(), points.history.concat());
     let forces = state.reactions.iter().map(|reaction| reaction.force).collect::<Vec<_>>();
     put_vectors(checkpoint, "solid.reaction_force", &forces);
     let moments = state.reactions.iter().flat_map(|reaction| reaction.moment).collect();
@@ -208,7 +211,7 @@ fn save_solid<const D: usize>(solid: &Solid<D>, checkpoint: &mut Checkpoint) {
         &ledger.gravity_impulse,
         &ledger.damping_impulse,
     ];
-    numbers.extend(impulses.into_iter().flatten());
+    numbers.extend(impulses.into_iter().chain([&state.load, &state.point_load]).flatten());
     numbers.extend(ledger.boundary_angular_impulse);
     numbers.extend(ledger.external_angular_impulse);
     checkpoint.reals.insert("solid.numbers".into(), numbers);
@@ -235,6 +238,9 @@ fn load_solid<const D: usize>(solid: &mut Solid<D>, entries: Entries<'_>) -> Res
     let gradients = entries.reals("solid.deformation_gradient")?.chunks_exact(9);
     points.deformation_gradient = gradients.map(Matrix3::from_column_slice).collect();
     points.stress = entries.reals("solid.stress")?.as_chunks::<6>().0.to_vec();
+    let affine = entries.reals("solid.affine_velocity")?.chunks_exact(D * D);
+    points.affine_velocity = affine.map(SMatrix::from_column_slice).collect();
+    points.history = entries.reals("solid.history")?.as_chunks::<2>().0.to_vec();
     let forces: Vec<SVector<f64, D>> = entries.vectors("solid.reaction_force")?;
     let moments = entries.reals("solid.reaction_moment")?.as_chunks::<3>().0;
     for (reaction, (force, moment)) in state.reactions.iter_mut().zip(forces.iter().zip(moments)) {
@@ -259,6 +265,8 @@ fn load_solid<const D: usize>(solid: &mut Solid<D>, entries: Entries<'_>) -> Res
         &mut ledger.external_impulse,
         &mut ledger.gravity_impulse,
         &mut ledger.damping_impulse,
+        &mut state.load,
+        &mut state.point_load,
     ] {
         for component in vector.iter_mut() {
             *component = numbers.next("solid.numbers")?;

@@ -40,9 +40,9 @@ pub use error::VerifyError;
 pub use gate::Gate;
 pub use histories::Histories;
 pub use metric::{
-    Arrival, CantileverCrest, Divisor, Frequency, FrontBand, HistoryAt, HistoryDeviation,
-    LoadShape, Mask, Measurement, Metric, Peak, Statistic, StressComponent, StressField, Take,
-    Threshold,
+    Acceleration, AmplitudeLoss, Arrival, Axis, CantileverCrest, Divisor, Frequency, FrontBand,
+    HistoryAt, HistoryDeviation, LoadShape, Mask, Measurement, Metric, Norm, Peak, ProfileError,
+    Quantity, Statistic, StressComponent, StressField, Take, Threshold,
 };
 pub use points::{FinalPoints, NoPoints, PointSource};
 pub use reference::ReferenceTable;

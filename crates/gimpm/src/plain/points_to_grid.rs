@@ -7,6 +7,7 @@ use crate::parameters::Frame;
 use crate::points::Points;
 use crate::solid::Body;
 use crate::stencil::PointStencil;
+use crate::transfer::{PointTransfer, with_transfer};
 
 /// Adds mass, momentum (G5) and internal force (G6; G6b in the total frame).
 pub(crate) fn points_to_grid<const D: usize>(
@@ -15,18 +16,35 @@ pub(crate) fn points_to_grid<const D: usize>(
     points: &Points<D>,
     grid: &mut Grid<D>,
 ) {
+    with_transfer!(body, transfer => scatter(transfer, body, slab_offsets, points, grid));
+}
+
+fn scatter<T: PointTransfer, const D: usize>(
+    transfer: T,
+    body: &Body,
+    slab_offsets: &[usize],
+    points: &Points<D>,
+    grid: &mut Grid<D>,
+) {
     let geometry = &grid.geometry;
-    geometry.scatter_by_slab(slab_offsets, &mut grid.nodes, |range, first, nodes| {
+    let frame = body.discretisation.frame;
+    body.slabs.scatter(geometry, slab_offsets, &mut grid.nodes, |range, first, nodes| {
         let mut stencil = PointStencil::default();
         for p in range {
-            stencil.evaluate(body, geometry, points.site(body.discretisation.frame, p));
+            let f = &points.deformation_gradient[p];
+            stencil.evaluate(body, geometry, points.site(frame, p), f);
             let (mass, velocity) = (points.mass[p], &points.velocity[p]);
-            let force = internal_force(body.discretisation.frame, points, p);
+            let spread = points.spread(transfer, p, &stencil);
+            let force = internal_force(frame, points, p);
             for entry in stencil.entries() {
                 let record = &mut nodes[entry.node as usize - first];
                 record[0] += entry.value * mass;
                 for d in 0..D {
-                    record[VELOCITY + d] += entry.value * mass * velocity[d];
+                    let mut carried = velocity[d];
+                    if T::AFFINE {
+                        carried += (0..D).map(|j| spread[(d, j)] * entry.offset[j]).sum::<f64>();
+                    }
+                    record[VELOCITY + d] += entry.value * mass * carried;
                     let pull: f64 = (0..D).map(|j| force[(d, j)] * entry.gradient[j]).sum();
                     record[ACCELERATION + d] += pull;
                 }

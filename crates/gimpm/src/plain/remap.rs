@@ -4,6 +4,7 @@ use crate::grid::Grid;
 use crate::points::Points;
 use crate::solid::Body;
 use crate::stencil::PointStencil;
+use crate::transfer::{PointTransfer, with_transfer};
 
 /// Adds the momentum of the points (G13, before the division by mass).
 pub(crate) fn remap<const D: usize>(
@@ -12,15 +13,34 @@ pub(crate) fn remap<const D: usize>(
     points: &Points<D>,
     grid: &mut Grid<D>,
 ) {
+    with_transfer!(body, transfer => scatter(transfer, body, slab_offsets, points, grid));
+}
+
+fn scatter<T: PointTransfer, const D: usize>(
+    transfer: T,
+    body: &Body,
+    slab_offsets: &[usize],
+    points: &Points<D>,
+    grid: &mut Grid<D>,
+) {
     let geometry = &grid.geometry;
-    geometry.scatter_by_slab(slab_offsets, &mut grid.remapped, |range, first, nodes| {
+    let frame = body.discretisation.frame;
+    body.slabs.scatter(geometry, slab_offsets, &mut grid.remapped, |range, first, nodes| {
         let mut stencil = PointStencil::default();
         for p in range {
-            stencil.evaluate(body, geometry, points.site(body.discretisation.frame, p));
-            let momentum = points.velocity[p] * points.mass[p];
+            let f = &points.deformation_gradient[p];
+            stencil.evaluate(body, geometry, points.site(frame, p), f);
+            let (mass, velocity) = (points.mass[p], &points.velocity[p]);
+            let spread = points.spread(transfer, p, &stencil);
             for entry in stencil.entries() {
                 let record = &mut nodes[entry.node as usize - first];
-                (0..D).for_each(|d| record[d] += entry.value * momentum[d]);
+                for d in 0..D {
+                    let mut carried = velocity[d];
+                    if T::AFFINE {
+                        carried += (0..D).map(|j| spread[(d, j)] * entry.offset[j]).sum::<f64>();
+                    }
+                    record[d] += entry.value * mass * carried;
+                }
             }
         }
     });

@@ -4,7 +4,7 @@
 /// [`ShapeFunction`](crate::ShapeFunction): partition of unity, gradients that
 /// sum to zero, linear reproduction (`Σ S x_node = x`), derivative equal to the
 /// finite difference of the value, no weight beyond `reach`, zero entries
-/// beyond `count`. Write `#[test]` before the name in a test module.
+/// beyond `count`, the same weights for eight points at once. Write `#[test]` before the name in a test module.
 #[macro_export]
 macro_rules! shape_function_conformance {
     ($(#[$attribute:meta])* $name:ident, $shape:expr) => {
@@ -39,6 +39,15 @@ macro_rules! shape_function_conformance {
                 assert!(gradient_sum.abs() < 1e-13, "gradient sum at {x}: {gradient_sum}");
                 assert!((position - x).abs() < 1e-13, "linear reproduction at {x}: {position}");
                 assert!((slope - 1.0).abs() < 1e-12, "linear slope at {x}: {slope}");
+                let lanes = shape.lane_weights([x; 8].into());
+                assert_eq!(lanes.base.to_array(), [f64::from(weights.base); 8]);
+                assert_eq!(lanes.third, if weights.count == 3 { 0xff } else { 0 });
+                for slot in 0..3 {
+                    let value = lanes.value[slot].to_array()[slot];
+                    let gradient = lanes.gradient[slot].to_array()[7 - slot];
+                    assert!((value - weights.value[slot]).abs() < 1e-15, "lanes at {x}");
+                    assert!((gradient - weights.gradient[slot]).abs() < 1e-14, "lanes at {x}");
+                }
                 let step = 1e-6;
                 for node in weights.base..weights.base + 3 {
                     let difference = (at(x + step, node).0 - at(x - step, node).0) / (2.0 * step);

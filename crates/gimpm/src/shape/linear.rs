@@ -1,6 +1,8 @@
 //! Linear weights of the original material point method.
 
-use super::{AxisWeights, ShapeFunction};
+use wide::f64x8;
+
+use super::{AxisWeights, LaneWeights, ShapeFunction};
 
 /// `S = 1 - |x|` at the point itself (G3; Sulsky, Chen and Schreyer 1994).
 ///
@@ -25,6 +27,14 @@ impl ShapeFunction for Linear {
             value: [1.0 - t, t, 0.0],
             gradient: [-1.0, 1.0, 0.0],
         }
+    }
+
+    #[inline(always)]
+    fn lane_weights(&self, x: f64x8) -> LaneWeights {
+        let [zero, one] = [0.0, 1.0].map(f64x8::splat);
+        let base = x.floor();
+        let t = x - base;
+        LaneWeights { base, third: 0, value: [one - t, t, zero], gradient: [-one, one, zero] }
     }
 }
 

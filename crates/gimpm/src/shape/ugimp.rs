@@ -1,6 +1,8 @@
 //! Uniform GIMP weights: the point's box keeps its size.
 
-use super::{AxisWeights, ShapeFunction};
+use wide::f64x8;
+
+use super::{AxisWeights, LaneWeights, ShapeFunction};
 
 /// Grid linear function averaged over a box of half width l (G1, G2;
 /// Bardenhagen and Kober 2004):
@@ -55,6 +57,29 @@ impl ShapeFunction for Ugimp {
             count: if c > 0.0 { 3 } else { 2 },
             value: [first, 1.0 - first - third, third],
             gradient: [first_slope, -first_slope - third_slope, third_slope],
+        }
+    }
+
+    /// Without a branch: where `c = 0`, `left = 2l` gives the first node the weight `l`
+    /// and the slope -1, and the rest of its weight is the distance to the kink.
+    #[inline(always)]
+    fn lane_weights(&self, x: f64x8) -> LaneWeights {
+        let [zero, one, two] = [0.0, 1.0, 2.0].map(f64x8::splat);
+        let half_width = f64x8::splat(self.half_width);
+        let quarter_inverse = f64x8::splat(self.quarter_inverse);
+        let base = (x - half_width).floor();
+        let past_kink = (x - base) - (one - half_width);
+        let c = past_kink.fast_max(zero);
+        let left = (two * half_width - c).fast_max(zero);
+        let (left_slope, third_slope) = (left * quarter_inverse, c * quarter_inverse);
+        let first = left.mul_add(left_slope, (zero - past_kink).fast_max(zero));
+        let third = c * third_slope;
+        let (first_slope, third_slope) = (left_slope * -two, third_slope * two);
+        LaneWeights {
+            base,
+            third: c.simd_gt(zero).to_bitmask(),
+            value: [first, one - first - third, third],
+            gradient: [first_slope, zero - first_slope - third_slope, third_slope],
         }
     }
 }

@@ -1,18 +1,24 @@
 //! Metrics: one number from a run, and the same number from the reference.
 
+mod acceleration;
+mod amplitude_loss;
 mod cantilever;
 mod frequency;
 mod front;
 mod history;
 mod peak;
+mod profile_error;
 mod statistic;
 mod stress_field;
 
+pub use acceleration::Acceleration;
+pub use amplitude_loss::AmplitudeLoss;
 pub use cantilever::{CantileverCrest, LoadShape};
 pub use frequency::Frequency;
 pub use front::FrontBand;
 pub use history::{HistoryAt, HistoryDeviation};
 pub use peak::{Arrival, Peak, Threshold};
+pub use profile_error::{Axis, Norm, ProfileError, Quantity};
 pub use statistic::{Divisor, Statistic, Take};
 pub use stress_field::{Mask, StressComponent, StressField};
 
@@ -40,6 +46,12 @@ pub enum Metric {
     Arrival(Arrival),
     /// Angular frequency from zero crossings.
     Frequency(Frequency),
+    /// Loss of amplitude of a vibration over a number of periods.
+    AmplitudeLoss(AmplitudeLoss),
+    /// Steady acceleration from a history of displacement.
+    Acceleration(Acceleration),
+    /// Stress or displacement of all points beside a profile along one axis.
+    ProfileError(ProfileError),
     /// Crest displacement against beam theory with the measured base reactions.
     CantileverCrest(CantileverCrest),
 }
@@ -71,10 +83,14 @@ impl Metric {
     /// How many reference files the metric takes.
     pub(super) fn reference_count(&self) -> RangeInclusive<usize> {
         match self {
-            Self::Statistic(_) | Self::Frequency(_) | Self::CantileverCrest(_) => 0..=0,
+            Self::Statistic(_)
+            | Self::Frequency(_)
+            | Self::AmplitudeLoss(_)
+            | Self::Acceleration(_)
+            | Self::CantileverCrest(_) => 0..=0,
             Self::StressField(_) | Self::HistoryDeviation(_) => 1..=1,
             Self::FrontBand(_) => 1..=usize::MAX,
-            Self::HistoryAt(_) | Self::Peak(_) | Self::Arrival(_) => 0..=1,
+            Self::HistoryAt(_) | Self::Peak(_) | Self::Arrival(_) | Self::ProfileError(_) => 0..=1,
         }
     }
 
@@ -87,6 +103,9 @@ impl Metric {
             | Self::StressField(_)
             | Self::FrontBand(_)
             | Self::HistoryDeviation(_)
+            | Self::AmplitudeLoss(_)
+            | Self::Acceleration(_)
+            | Self::ProfileError(_)
             | Self::Frequency(_) => false,
         }
     }
@@ -98,13 +117,15 @@ impl Metric {
                 Divisor::Nothing | Divisor::Scale(_) => vec![&m.signal],
                 Divisor::Same(other) | Divisor::First(other) => vec![&m.signal, other],
             },
-            Self::StressField(_) => vec![],
+            Self::StressField(_) | Self::ProfileError(_) => vec![],
             Self::FrontBand(m) => vec![&m.signal],
             Self::HistoryAt(m) => vec![&m.signal],
             Self::HistoryDeviation(m) => vec![&m.signal],
             Self::Peak(m) => vec![&m.signal],
             Self::Arrival(m) => vec![&m.signal],
             Self::Frequency(m) => vec![&m.signal],
+            Self::AmplitudeLoss(m) => vec![&m.signal],
+            Self::Acceleration(m) => vec![&m.signal],
             Self::CantileverCrest(m) => vec![&m.displacement, &m.force, &m.moment],
         }
     }
@@ -120,6 +141,9 @@ impl Metric {
             Self::Peak(m) => m.measure(evidence),
             Self::Arrival(m) => m.measure(evidence),
             Self::Frequency(m) => m.measure(evidence),
+            Self::AmplitudeLoss(m) => m.measure(evidence),
+            Self::Acceleration(m) => m.measure(evidence),
+            Self::ProfileError(m) => m.measure(evidence),
             Self::CantileverCrest(m) => m.measure(evidence),
         }
     }

@@ -24,7 +24,7 @@ pub enum StressComponent {
 
 impl StressComponent {
     /// Index in `[xx, yy, zz, xy, yz, xz]`.
-    fn index(self) -> usize {
+    pub(super) fn index(self) -> usize {
         self as usize
     }
 
