@@ -18,8 +18,9 @@ impl<const D: usize> Solid<D> {
         if scale > 0.0 { (held + load).norm() / scale } else { 0.0 }
     }
 
-    /// `Σ_v ½ m_v v_v²` with the velocity that strained the points last (J). The points' own kinetic energy never dies
-    /// with FLIP: the grid neither sees nor damps what cancels out between neighbours.
+    /// `Σ_v ½ m_v v_v²` with the velocity that strained the points last (J). The points'
+    /// own kinetic energy never dies with FLIP: the grid neither sees nor damps what
+    /// cancels out between neighbours.
     fn grid_kinetic_energy(&self) -> f64 {
         let of_field = |field: &Field<D>| {
             let (nodes, velocity) = (&field.grid.nodes, &field.grid.remapped);

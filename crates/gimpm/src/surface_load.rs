@@ -2,12 +2,13 @@
 
 use std::collections::HashSet;
 
-use nalgebra::{Matrix3, SVector, Vector3};
+use nalgebra::{Matrix3, SVector};
 
 use crate::error::SolidError;
 use crate::parameters::{Frame, LoadKind, SurfaceLoad, smooth_start};
 use crate::points::Points;
 use crate::solid::{Body, Solid};
+use crate::tensor::Tensor;
 
 /// A load with the faces that carry it.
 #[derive(Debug, Clone)]
@@ -166,10 +167,9 @@ fn corner_arm<const D: usize>(load: &SurfaceLoad<D>, corner: u32, half: f64) -> 
 
 /// `cof F N`: current area vector of a face of unit reference area.
 fn current_area<const D: usize>(gradient: &Matrix3<f64>, load: &SurfaceLoad<D>) -> SVector<f64, D> {
-    let column = |d: usize| -> Vector3<f64> { gradient.column(d % 3).into() };
-    let cofactor = column(load.axis + 1).cross(&column(load.axis + 2));
+    let cofactor = Tensor::from(gradient).cofactor();
     let outward = if load.upper_side { 1.0 } else { -1.0 };
-    SVector::from_fn(|d, _| outward * cofactor[d])
+    SVector::from_fn(|d, _| outward * cofactor.0[d][load.axis])
 }
 
 fn linear_map<const D: usize>(gradient: &Matrix3<f64>, arm: &SVector<f64, D>) -> SVector<f64, D> {

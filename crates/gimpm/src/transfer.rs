@@ -23,29 +23,31 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::grid::{NodeRecord, VELOCITY};
 use crate::parameters::Transfer;
-use crate::stencil::PointStencil;
+use crate::stencil::{Entry, PointStencil};
 
 /// Transfer of velocity between one point and its nodes.
 ///
 /// `kept` is what the point keeps beside its velocity, `Points::affine_velocity`;
-/// a transfer with `AFFINE` false has none and is given zeros.
+/// a transfer with `AFFINE` false has none and is given zeros, and leaves the functions
+/// of the affine part as they are here.
 pub(crate) trait PointTransfer: Copy + Send + Sync {
     /// Whether points keep an affine part.
     const AFFINE: bool;
 
-    /// Gradient C (1/s) with which a point gives `v_p + C (x_v - x_p)` to node v.
+    /// Gradient C (1/s), from what is kept, with which a point gives `v_p + C (x_v - x_p)`
+    /// to node v.
     fn gradient<const D: usize>(
         &self,
-        kept: &SMatrix<f64, D, D>,
-        stencil: &PointStencil,
-    ) -> SMatrix<f64, D, D>;
+        _: &SMatrix<f64, D, D>,
+        _: &PointStencil,
+    ) -> SMatrix<f64, D, D> {
+        SMatrix::zeros()
+    }
 
     /// What a point keeps that moves with gradient C.
-    fn keep<const D: usize>(
-        &self,
-        gradient: &SMatrix<f64, D, D>,
-        stencil: &PointStencil,
-    ) -> SMatrix<f64, D, D>;
+    fn keep<const D: usize>(&self, _: &SMatrix<f64, D, D>, _: &PointStencil) -> SMatrix<f64, D, D> {
+        SMatrix::zeros()
+    }
 
     /// New velocity and affine part from nodes `[m, v^L, a]` (after boundary conditions).
     fn gather<const D: usize>(
@@ -61,9 +63,11 @@ pub(crate) trait PointTransfer: Copy + Send + Sync {
     /// adds to the first moments of the momentum, per mass.
     fn moments<const D: usize>(
         &self,
-        kept: &SMatrix<f64, D, D>,
-        stencil: &PointStencil,
-    ) -> SMatrix<f64, D, D>;
+        _: &SMatrix<f64, D, D>,
+        _: &PointStencil,
+    ) -> SMatrix<f64, D, D> {
+        SMatrix::zeros()
+    }
 }
 
 impl Transfer {
@@ -102,6 +106,22 @@ macro_rules! with_transfer {
     };
 }
 pub(crate) use with_transfer;
+
+/// Component `d` of the velocity `v_p + C (x_v - x_p)` that a point gives to a node
+/// (m/s).
+#[inline(always)]
+pub(crate) fn given_velocity<T: PointTransfer, const D: usize>(
+    velocity: &SVector<f64, D>,
+    gradient: &SMatrix<f64, D, D>,
+    entry: &Entry,
+    d: usize,
+) -> f64 {
+    let mut given = velocity[d];
+    if T::AFFINE {
+        given += (0..D).map(|j| gradient[(d, j)] * entry.offset[j]).sum::<f64>();
+    }
+    given
+}
 
 /// `Σ_v v_v^L S_vp` (m/s).
 #[inline(always)]

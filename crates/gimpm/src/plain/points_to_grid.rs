@@ -7,7 +7,8 @@ use crate::parameters::Frame;
 use crate::points::Points;
 use crate::solid::Body;
 use crate::stencil::PointStencil;
-use crate::transfer::{PointTransfer, with_transfer};
+use crate::tensor::Tensor;
+use crate::transfer::{PointTransfer, given_velocity, with_transfer};
 
 /// Adds mass, momentum (G5) and internal force (G6; G6b in the total frame).
 pub(crate) fn points_to_grid<const D: usize>(
@@ -40,10 +41,7 @@ fn scatter<T: PointTransfer, const D: usize>(
                 let record = &mut nodes[entry.node as usize - first];
                 record[0] += entry.value * mass;
                 for d in 0..D {
-                    let mut carried = velocity[d];
-                    if T::AFFINE {
-                        carried += (0..D).map(|j| spread[(d, j)] * entry.offset[j]).sum::<f64>();
-                    }
+                    let carried = given_velocity::<T, D>(velocity, &spread, entry, d);
                     record[VELOCITY + d] += entry.value * mass * carried;
                     let pull: f64 = (0..D).map(|j| force[(d, j)] * entry.gradient[j]).sum();
                     record[ACCELERATION + d] += pull;
@@ -56,15 +54,12 @@ fn scatter<T: PointTransfer, const D: usize>(
 /// What a unit of weight gradient adds to the force on a node (J): `-V σ`, or
 /// `-V0 P` with the first Piola–Kirchhoff stress `P = J σ F⁻ᵀ` in the total frame.
 fn internal_force<const D: usize>(frame: Frame, points: &Points<D>, p: usize) -> Matrix3<f64> {
-    let [xx, yy, zz, xy, yz, xz] = points.stress[p];
-    let stress = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let stress = Tensor::from_symmetric(&points.stress[p]).to_matrix();
     match frame {
         Frame::Updated => stress * -points.volume[p],
         Frame::Total => {
-            let f = &points.deformation_gradient[p];
-            let [a, b, c] = [f.column(0), f.column(1), f.column(2)];
-            let cofactor = Matrix3::from_columns(&[b.cross(&c), c.cross(&a), a.cross(&b)]);
-            stress * cofactor * -points.reference_volume[p]
+            let cofactor = Tensor::from(&points.deformation_gradient[p]).cofactor();
+            stress * cofactor.to_matrix() * -points.reference_volume[p]
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::grid::Grid;
 use crate::points::Points;
 use crate::solid::Body;
 use crate::stencil::PointStencil;
-use crate::transfer::{PointTransfer, with_transfer};
+use crate::transfer::{PointTransfer, given_velocity, with_transfer};
 
 /// Adds the momentum of the points (G13, before the division by mass).
 pub(crate) fn remap<const D: usize>(
@@ -35,10 +35,7 @@ fn scatter<T: PointTransfer, const D: usize>(
             for entry in stencil.entries() {
                 let record = &mut nodes[entry.node as usize - first];
                 for d in 0..D {
-                    let mut carried = velocity[d];
-                    if T::AFFINE {
-                        carried += (0..D).map(|j| spread[(d, j)] * entry.offset[j]).sum::<f64>();
-                    }
+                    let carried = given_velocity::<T, D>(velocity, &spread, entry, d);
                     record[d] += entry.value * mass * carried;
                 }
             }

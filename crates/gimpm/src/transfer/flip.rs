@@ -13,18 +13,6 @@ pub(crate) struct Flip;
 impl PointTransfer for Flip {
     const AFFINE: bool = false;
 
-    fn gradient<const D: usize>(
-        &self,
-        _: &SMatrix<f64, D, D>,
-        _: &PointStencil,
-    ) -> SMatrix<f64, D, D> {
-        SMatrix::zeros()
-    }
-
-    fn keep<const D: usize>(&self, _: &SMatrix<f64, D, D>, _: &PointStencil) -> SMatrix<f64, D, D> {
-        SMatrix::zeros()
-    }
-
     #[inline(always)]
     fn gather<const D: usize>(
         &self,
@@ -40,14 +28,6 @@ impl PointTransfer for Flip {
                 velocity[d] += dt * entry.value * record[ACCELERATION + d];
             }
         }
-    }
-
-    fn moments<const D: usize>(
-        &self,
-        _: &SMatrix<f64, D, D>,
-        _: &PointStencil,
-    ) -> SMatrix<f64, D, D> {
-        SMatrix::zeros()
     }
 }
 

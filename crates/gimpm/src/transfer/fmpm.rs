@@ -18,18 +18,6 @@ pub(crate) struct Fmpm;
 impl PointTransfer for Fmpm {
     const AFFINE: bool = false;
 
-    fn gradient<const D: usize>(
-        &self,
-        _: &SMatrix<f64, D, D>,
-        _: &PointStencil,
-    ) -> SMatrix<f64, D, D> {
-        SMatrix::zeros()
-    }
-
-    fn keep<const D: usize>(&self, _: &SMatrix<f64, D, D>, _: &PointStencil) -> SMatrix<f64, D, D> {
-        SMatrix::zeros()
-    }
-
     #[inline(always)]
     fn gather<const D: usize>(
         &self,
@@ -40,14 +28,6 @@ impl PointTransfer for Fmpm {
         _: &mut SMatrix<f64, D, D>,
     ) {
         *velocity = gather_velocity(stencil, nodes);
-    }
-
-    fn moments<const D: usize>(
-        &self,
-        _: &SMatrix<f64, D, D>,
-        _: &PointStencil,
-    ) -> SMatrix<f64, D, D> {
-        SMatrix::zeros()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Momentum, work and load balances, for random states.
 
 use crate::lattice::{lattice, parameters, planes};
+use crate::noise::noise;
 use gimpm::{
     BodySeed, Discretisation, InitialVelocity, LinearElastic, Shape, Solid, SolidParameters,
 };
@@ -11,17 +12,6 @@ use proptest::prelude::*;
 const SOFT: LinearElastic =
     LinearElastic { density: 1200.0, young_modulus: 2.0e6, poisson_ratio: 0.3 };
 const H: f64 = 0.1;
-
-/// A reproducible sequence of numbers in -1..1.
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
 
 /// Two bodies of random points and velocities in the middle of a grid.
 fn debris<const D: usize>(

@@ -1,6 +1,7 @@
 //! Contact between bodies, and of one body with a rigid wall, against exact values.
 
 use crate::lattice::{lattice, parameters, planes};
+use crate::noise::noise;
 use gimpm::{
     BodySeed, Contact, Discretisation, Frame, Hold, InitialVelocity, LinearElastic, NodeConstraint,
     Solid,
@@ -318,17 +319,6 @@ fn a_rod_hits_a_rigid_wall() {
     );
     assert!((force - 1.0).abs() < 0.02, "{force}");
     assert!((last / exact_duration - 1.0).abs() < 0.02, "{last} {exact_duration}");
-}
-
-/// A reproducible sequence of numbers in -1..1.
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }
 
 /// Two rough blocks that fly into each other, the first on a floor if asked for.

@@ -2,6 +2,7 @@
 //! same bits for any thread count and after a restart.
 
 use crate::lattice::{lattice, parameters, planes};
+use crate::noise::noise;
 use gimpm::{
     BodySeed, Discretisation, DruckerPrager, Frame, Hold, InitialVelocity, LinearElastic, Loops,
     MaterialModel, NeoHookean, NodeConstraint, Solid, SolidState, StressUpdate, VonMises,
@@ -28,17 +29,6 @@ fn laws() -> [MaterialModel; 3] {
         }
         .into(),
     ]
-}
-
-/// A reproducible sequence of numbers in -1..1.
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }
 
 /// What a block is made of.

@@ -1,19 +1,13 @@
 //! The total Lagrangian frame against finite elements, exact states and locking.
-//!
-//! `reference/block_compression_sigma_zz.csv` holds σzz/(E ε0) averaged over the grid
-//! cells of one octant of the founding paper's block: the static limit on this grid
-//! and converged finite elements, both at small strain.
 
 use crate::lattice::{CONCRETE, at_rest, lattice, parameters, planes};
+use crate::pressed_block::{H, HEIGHT, difference, octant, pressed_block, references};
 use gimpm::{
     BodySeed, Discretisation, Frame, LinearElastic, Material, MaterialModel, NeoHookean,
     NodeConstraint, Solid, SolidError, Transfer,
 };
 use motion::Motion;
 use nalgebra::{Matrix3, SVector};
-
-const H: f64 = 0.1;
-const HEIGHT: f64 = 2.0;
 
 fn total() -> Discretisation {
     Discretisation { frame: Frame::Total, ..Discretisation::default() }
@@ -34,77 +28,16 @@ fn seed<const D: usize>(
     }
 }
 
-/// The block after 15 transit times of the P wave, pressed by `press` (m), and the
-/// time step.
-fn pressed_block(cells: [usize; 3], press: f64) -> (Solid<3>, f64) {
-    let transit = HEIGHT / CONCRETE.p_wave_speed();
-    let duration = 10.0 * transit;
-    let moved = Motion::SmoothStart { velocity: -press / duration, duration };
-    let fixed = || Some(Motion::Fixed);
-    let constraints = vec![
-        planes("bottom", 2, f64::NEG_INFINITY, 0.0, [fixed(), fixed(), fixed()]),
-        planes("top", 2, HEIGHT, f64::INFINITY, [fixed(), fixed(), Some(moved)]),
-    ];
-    let parameters = parameters(H, SVector::zeros(), cells, 0.5);
-    let block = seed(CONCRETE, cells, total());
-    let mut solid = Solid::new(parameters, vec![block], constraints).unwrap();
-    let end = 15.0 * transit;
-    let steps = (end / solid.stable_time_step().unwrap().value).ceil();
-    for _ in 0..steps as usize {
-        solid.step(end / steps).unwrap();
-    }
-    (solid, end / steps)
-}
-
-/// Cell averages of σzz/(E ε0), folded onto the octant of the reference.
-fn octant(solid: &Solid<3>, strain: f64) -> Vec<f64> {
-    let mut sum = vec![0.0; 250];
-    let points = solid.points();
-    for p in 0..points.len() {
-        let cell: [usize; 3] =
-            std::array::from_fn(|d| (points.reference_position[p][d] / H) as usize);
-        let [i, j, k] =
-            [cell[0].min(9 - cell[0]), cell[1].min(9 - cell[1]), cell[2].min(19 - cell[2])];
-        sum[(i * 5 + j) * 10 + k] += points.stress[p][2] / (CONCRETE.young_modulus * strain) / 64.0;
-    }
-    sum
-}
-
-/// Relative L2 difference over the cells that `chosen` selects.
-fn difference(
-    found: &[f64],
-    reference: &[f64],
-    chosen: impl Fn(usize, usize, usize) -> bool,
-) -> f64 {
-    let (mut error, mut norm) = (0.0, 0.0);
-    for (cell, (a, b)) in found.iter().zip(reference).enumerate() {
-        if chosen(cell / 50, cell / 10 % 5, cell % 10) {
-            error += (a - b) * (a - b);
-            norm += b * b;
-        }
-    }
-    f64::sqrt(error / norm)
-}
-
 /// The clamp sits on material nodes, so the result may not depend on the
 /// displacement. The references are those of small strain; at a strain ε the force of
 /// a bar of this law is `E ln(1-ε)` on an area grown by `2νε`: `1 + (½ + 2ν) ε` times as
 /// large to first order (4.5e-4 at the largest displacement), which is taken out.
 #[test]
 fn end_clamped_block_agrees_with_finite_elements_at_any_displacement() {
-    let rows: Vec<[f64; 2]> = include_str!("reference/block_compression_sigma_zz.csv")
-        .lines()
-        .skip(1)
-        .map(|line| {
-            let columns: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
-            [columns[3], columns[4]]
-        })
-        .collect();
-    let limit: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-    let fem: Vec<f64> = rows.iter().map(|row| row[1]).collect();
+    let (limit, fem) = references();
     for cells_of_displacement in [1e-4, 1e-3, 1e-2] {
         let press = cells_of_displacement * H;
-        let (mut solid, dt) = pressed_block([10, 10, 20], press);
+        let (mut solid, dt) = pressed_block([10, 10, 20], press, false, total());
         let found = octant(&solid, press / HEIGHT);
         let to_limit = difference(&found, &limit, |_, _, _| true);
         let all = difference(&found, &fem, |_, _, _| true);

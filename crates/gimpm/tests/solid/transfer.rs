@@ -1,6 +1,7 @@
 //! What the transfers keep: momentum, affine fields, angular momentum, energy.
 
 use crate::lattice::{lattice, parameters, planes};
+use crate::noise::noise;
 use gimpm::{
     BodySeed, Discretisation, Frame, InitialVelocity, LinearElastic, Loops, Shape, Solid,
     SolidError, StressUpdate, Transfer,
@@ -23,16 +24,6 @@ const ORDERS: [StressUpdate; 3] =
     [StressUpdate::ModifiedLast, StressUpdate::First, StressUpdate::Last];
 const SOFT: LinearElastic =
     LinearElastic { density: 1200.0, young_modulus: 2.0e6, poisson_ratio: 0.3 };
-
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
 
 /// A block of jittered points (a regular lattice in the total frame) with random
 /// velocities; with `clamped`, the planes at its lower side are held.
